@@ -1,0 +1,114 @@
+// One case, run and scored: plain data with a unit in every field's name.
+// The JSON keys and the columns of the store are these names; they are a contract: every key is always
+// written, null where it does not apply; new ones are added, none is renamed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace corridor::results {
+
+// How a case ended. Everything but kOk is a row in every table, never a gap.
+enum class CaseStatus {
+  kOk,            // ran to the end and every expected pose was matched
+  kPartial,       // ran to the end, but poses are missing
+  kDiverged,      // a pose or map is not finite, or the system itself reported that it is lost at the end
+  kFailed,        // the system returned an error, or the process crashed
+  kTimeout,
+  kOutOfMemory,
+  kBadInput,
+};
+
+// The JSON text: "ok partial diverged failed timeout out_of_memory bad_input".
+std::string to_text(CaseStatus status);
+std::optional<CaseStatus> case_status_from_text(const std::string& text);
+
+struct TrajectoryScores {
+  // First poses aligned (the paper's two).
+  std::optional<double> position_rmse_m, angle_rmse_deg;
+  // After the SE(2) alignment of [Umeyama1991] without scale.
+  std::optional<double> ate_se2_rmse_m, ate_se2_angle_rmse_deg;
+  // Over 1 m of true path.
+  std::optional<double> rpe_1m_rmse_m, rpe_1m_angle_rmse_deg;
+};
+
+struct RelationScores {
+  std::optional<std::int64_t> relations_used, relations_skipped;
+  std::optional<double> relations_translation_mean_m, relations_translation_std_m;
+  std::optional<double> relations_rotation_mean_deg, relations_rotation_std_deg;
+};
+
+struct KeyDistance {
+  std::optional<double> true_m, measured_m, error_m, sigma_m;
+  std::string status;  // "ok" or why it is not measurable
+};
+
+struct KeyAngle {
+  std::optional<double> true_deg, measured_deg, error_deg, sigma_deg;
+  std::string status;
+};
+
+struct KeyDistances {
+  KeyDistance a, b, c;
+  KeyAngle alpha;
+};
+
+struct MapScores {
+  std::optional<KeyDistances> key_distances;
+  std::optional<double> map_chamfer_m, map_hausdorff95_m;
+};
+
+struct StageTimes {
+  std::string name;
+  std::int64_t count = 0;  // steps in which the stage was entered
+  double total_s = 0;
+  double p50_us = 0, p95_us = 0, p99_us = 0, max_us = 0;
+};
+
+struct RunResult {
+  // what
+  std::string case_id;
+  std::string suite;
+  std::string system, profile;
+  std::optional<std::string> backend;
+  std::string dataset;                       // catalogue name, scenario name or file
+  std::optional<std::uint64_t> data_seed;    // null for recorded data
+  std::uint64_t system_seed = 0;
+  int threads = 1;
+  std::string parameters_hash;
+  std::map<std::string, std::string> parameters;
+  std::string git_revision, machine_id;
+
+  // outcome
+  CaseStatus status = CaseStatus::kFailed;
+  std::string status_message;
+  std::optional<std::int64_t> poses_expected, poses_matched;
+  std::optional<std::string> association, alignment;
+
+  // accuracy
+  TrajectoryScores final_scores;             // keys without prefix
+  TrajectoryScores online_scores;            // keys with prefix online_
+  RelationScores final_relations;
+  RelationScores online_relations;           // keys with prefix online_
+  MapScores own_map;                         // the system's own map
+  MapScores rendered_map;                    // one common mapper's map of its trajectory; prefix rendered_
+
+  // estimator
+  std::optional<double> nees_mean;
+  std::optional<std::int64_t> nees_dof;
+  std::optional<double> chi2;
+  std::optional<std::int64_t> factors, variables, relinearised;
+  std::optional<double> slip_precision, slip_recall, slip_latency_s;
+  std::optional<double> degeneracy_precision, degeneracy_recall;
+  std::map<std::string, double> counters;    // SlamEstimate::counters as given
+
+  // cost: step() and finish() only
+  std::vector<StageTimes> stages;
+  std::optional<double> step_p50_us, step_p95_us, step_p99_us, step_max_us;
+  std::optional<double> wall_s, cpu_s, peak_rss_mib, realtime_factor;
+};
+
+}  // namespace corridor::results

@@ -1,0 +1,64 @@
+// A solver of factor graphs that can be fed step by step.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slam/core/result.hpp"
+#include "slam/graph/factor_graph.hpp"
+#include "slam/graph/values.hpp"
+
+namespace corridor::backend {
+
+enum class SolveStatus {
+  kConverged,       // a step or the decrease of chi2 fell below its threshold
+  kMaxIterations,   // stopped by the iteration limit; the estimate is usable
+  kRankDeficient,   // some variables are undetermined; the estimate did not change
+  kNotFinite,       // a residual or Jacobian is not finite; the estimate did not change
+  kEmpty,           // nothing to solve
+};
+std::string to_text(SolveStatus status);
+
+struct BackEndReport {
+  SolveStatus status = SolveStatus::kEmpty;
+  int num_iterations = 0;
+  double chi2_initial = 0;   // after adding, before solving
+  double chi2 = 0;
+  std::int64_t num_factors = 0;
+  std::int64_t num_variables = 0;
+  std::int64_t num_relinearized = 0;   // variables moved by this update, summed over iterations
+  std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
+};
+
+class BackEnd {
+ public:
+  BackEnd() = default;
+  BackEnd(const BackEnd&) = delete;
+  BackEnd& operator=(const BackEnd&) = delete;
+  virtual ~BackEnd() = default;
+
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  // Adds, removes, then improves the estimate. Every key of a new factor must be in `new_values` or
+  // known already. A pose graph needs at least one prior.
+  virtual BackEndReport update(std::vector<graph::FactorPtr> new_factors,
+                               const graph::Values& new_values,
+                               std::span<const graph::FactorId> removed_factors) = 0;
+  // Adds without solving: for systems that optimise seldom.
+  virtual std::vector<graph::FactorId> add(std::vector<graph::FactorPtr> new_factors,
+                                           const graph::Values& new_values) = 0;
+  // Solves again from the present estimate, until converged or the iteration limit.
+  virtual BackEndReport solve() = 0;
+  // Overwrites the estimate of known variables, e.g. with a front end's own.
+  virtual void set_values(const graph::Values& values) = 0;
+
+  [[nodiscard]] virtual const graph::Values& estimate() const = 0;
+  [[nodiscard]] virtual const graph::FactorGraph& graph() const = 0;
+  // Covariance of one variable in its tangent order.
+  virtual Result<Eigen::MatrixXd> marginal_covariance(graph::Key key) = 0;
+};
+
+}  // namespace corridor::backend
