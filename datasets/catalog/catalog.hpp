@@ -1,0 +1,111 @@
+// The data sets the suite knows by name, where their files lie, and how to load one.
+// It downloads nothing and decides nothing about scoring.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "datasets/formats/log_io.hpp"
+#include "datasets/formats/relations.hpp"
+#include "slam/core/result.hpp"
+#include "slam/core/sensor_log.hpp"
+
+namespace corridor::catalog {
+
+// Folders that are searched, in this order.
+struct DataDirs {
+  std::vector<std::filesystem::path> folders;
+};
+
+// `data_dir` (the option --data-dir), $CORRIDOR_BENCH_DATA, the user's cache folder
+// ($XDG_CACHE_HOME/corridor-bench or ~/.cache/corridor-bench), what Debian's mrpt-common installs.
+DataDirs standard_data_dirs(const std::optional<std::filesystem::path>& data_dir = {});
+
+enum class TruthKind { kNone, kTum, kRelations };
+std::string_view to_text(TruthKind kind);
+
+struct DataFile {
+  std::filesystem::path path;  // relative to a data folder
+  std::string sha256;          // lower-case hexadecimal
+};
+
+struct CatalogEntry {
+  std::string name;
+  std::string title;
+  std::string format;           // "rawlog", "carmen"; others are listed, but not readable yet
+  std::vector<DataFile> files;  // the first is the log
+  TruthKind truth = TruthKind::kNone;
+  std::string licence;          // as its publisher states it
+  std::string source;           // where the public gets it
+  formats::StampOrder order = formats::StampOrder::kStamp;
+  std::optional<double> no_return_range_m;
+  std::optional<RobotModel> robot;  // calibration for logs that carry none
+
+  [[nodiscard]] bool is_readable() const;
+};
+
+struct Catalog {
+  std::vector<CatalogEntry> entries;
+  [[nodiscard]] const CatalogEntry* find(std::string_view name) const;
+};
+
+// The catalog.toml of the source tree the program was built from; $CORRIDOR_BENCH_CATALOG overrides.
+std::filesystem::path default_catalog_path();
+
+// The Error lists every violation: unknown keys, missing keys, names given twice, bad checksums.
+Result<Catalog> read_catalog(const std::filesystem::path& path = default_catalog_path());
+
+struct LoadOptions {
+  std::optional<formats::StampOrder> order;  // instead of the catalogue's (or kStamp for a file)
+  // Load a catalogued log although its bytes are not those of the catalogue; noted in provenance.
+  bool accept_other_checksum = false;
+};
+
+struct LoadedDataset {
+  SensorLog log;
+  std::optional<std::vector<formats::Relation>> relations;
+  std::optional<std::filesystem::path> world_file;  // LOG.truth.toml of a simulated log
+  std::string name;    // the catalogue's, or the log's file name without its log suffix
+  std::string sha256;  // of the log file
+};
+
+// `name_or_path` is a catalogued name or the path of a log file; truth is LOG.tum or LOG.relations
+// beside it. A name wins over a file of the same name.
+Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
+                                   const LoadOptions& options = {});
+Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
+                                   const Catalog& catalog, const LoadOptions& options = {});
+
+struct DatasetRow {
+  std::string name;
+  std::string title;
+  bool is_found = false;
+  bool is_readable = false;
+  std::filesystem::path path;  // of the log, where it was found
+  std::string format;
+  TruthKind truth = TruthKind::kNone;
+  std::string licence;
+  std::string source;
+};
+
+// One row per entry, in the catalogue's order.
+std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& dirs);
+
+enum class FileStatus { kMatches, kDiffers, kMissing };
+std::string_view to_text(FileStatus status);
+
+struct VerifiedFile {
+  std::filesystem::path path;  // where it was found, else as catalogued
+  FileStatus status = FileStatus::kMissing;
+  std::string sha256;          // found; empty if missing
+  std::string sha256_expected;
+};
+
+// Compares every file of an entry with the catalogue. An Error for an unknown name.
+Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::string_view name,
+                                                 const DataDirs& dirs);
+
+}  // namespace corridor::catalog

@@ -1,0 +1,19 @@
+// A planar pose graph as g2o text: VERTEX_SE2, EDGE_SE2, FIX.
+// Only what g2o's SE2 vocabulary holds: poses and relative poses. The rest is counted in a comment.
+#pragma once
+
+#include <filesystem>
+
+#include "slam/core/result.hpp"
+#include "slam/graph/factor_graph.hpp"
+#include "slam/graph/values.hpp"
+
+namespace corridor::formats {
+
+// Vertices in ascending order, then edges in the order of their factor numbers; information upper
+// triangular in the order (x x, x y, x theta, y y, y theta, theta theta).
+// A pose with a prior is named in a comment and held by FIX; without any, the first pose is fixed.
+Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& values,
+                       const std::filesystem::path& path);
+
+}  // namespace corridor::formats

@@ -1,0 +1,32 @@
+// The robot model as TOML: what a rawlog's leading comment and LOG.robot.toml hold.
+// Tables [robot] [wheels] [lidar] [imu]; angles in degrees, all else SI; unknown keys are errors.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "slam/core/result.hpp"
+#include "slam/core/robot_model.hpp"
+
+namespace corridor::formats {
+
+// Every key, with as many digits as give back the same numbers.
+std::string robot_to_toml(const RobotModel& robot);
+
+// wheels.track_m, left_m_per_tick and right_m_per_tick are required. The Error lists every violation.
+Result<RobotModel> robot_from_toml(std::string_view text, std::string_view where);
+
+// What a text says about the sensors, to be laid over another model.
+struct RobotOverride {
+  RobotModel robot;                // `base` with the text's keys put in
+  bool states_lidar_pose = false;  // any of lidar.x_m, y_m, yaw_deg
+  bool states_range_max = false;
+  bool states_range_min = false;
+  bool states_scan_duration = false;
+};
+
+// Nothing is required: keys that are not there keep the value of `base`.
+Result<RobotOverride> override_robot(const RobotModel& base, std::string_view text,
+                                     std::string_view where);
+
+}  // namespace corridor::formats
