@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "slam/core/pose2.hpp"
@@ -31,15 +32,17 @@ class Values {
 
   // In ascending order (kind, index).
   [[nodiscard]] std::vector<Key> keys() const;
-  [[nodiscard]] std::size_t size() const {
-    return poses_.size() + velocities_.size() + biases_.size();
-  }
-  [[nodiscard]] const std::map<std::uint32_t, Pose2>& poses() const { return poses_; }
+  [[nodiscard]] std::size_t size() const { return num_values_; }
 
  private:
-  std::map<std::uint32_t, Pose2> poses_;
-  std::map<std::uint32_t, Eigen::Vector2d> velocities_;
-  std::map<std::uint32_t, Eigen::Vector3d> biases_;
+  template <class T>
+  void set(std::vector<std::optional<T>>& slots, std::uint32_t index, const T& value);
+
+  // Indices are dense by convention: a slot per index, empty where no variable has it.
+  std::vector<std::optional<Pose2>> poses_;
+  std::vector<std::optional<Eigen::Vector2d>> velocities_;
+  std::vector<std::optional<Eigen::Vector3d>> biases_;
+  std::size_t num_values_ = 0;
 };
 
 }  // namespace corridor::graph

@@ -12,8 +12,8 @@
 
 namespace corridor::graph {
 
-// Upper Cholesky factor U of a positive semi-definite 3x3 information matrix, U^T U = information;
-// eigenvalues below 1e-12 of the largest count as zero. Rows of zeros stand for unconstrained directions.
+// U with U^T U = information for a positive semi-definite 3x3 matrix: row i = sqrt(lambda_i) v_i^T of its
+// eigen-decomposition. Rows of zeros (lambda_i <= 1e-15 of the largest) stand for unconstrained directions.
 Eigen::Matrix3d square_root_information(const Eigen::Matrix3d& information);
 
 // e = Log(prior^-1 * T_map_base), tangent order (x_m, y_m, theta_rad).

@@ -1,0 +1,183 @@
+#include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "slam/backend/gauss_newton/normal_equations.hpp"
+#include "slam/core/expect.hpp"
+#include "slam/linear/sparse_cholesky.hpp"
+
+namespace corridor::backend {
+namespace {
+
+using graph::FactorId;
+using graph::FactorPtr;
+using graph::Key;
+using graph::Values;
+
+class LeastSquares final : public BackEnd {
+ public:
+  explicit LeastSquares(const LeastSquaresParams& params) : params_(params) {}
+
+  std::string_view name() const override {
+    return params_.use_damping ? "levenberg" : "gauss-newton";
+  }
+
+  std::vector<FactorId> add(std::vector<FactorPtr> new_factors, const Values& new_values) override {
+    for (const Key key : new_values.keys()) {
+      if (!equations_.contains(key)) equations_.add_variable(key);
+    }
+    values_.merge(new_values);
+    std::vector<FactorId> ids;
+    for (FactorPtr& factor : new_factors) {
+      for (const Key key : factor->keys()) CORRIDOR_EXPECT(values_.contains(key));
+      const FactorId id = graph_.add(std::move(factor));
+      equations_.add_factor(id, graph_.factor(id));
+      ids.push_back(id);
+    }
+    return ids;
+  }
+
+  BackEndReport update(std::vector<FactorPtr> new_factors, const Values& new_values,
+                       std::span<const FactorId> removed_factors) override {
+    for (const FactorId id : removed_factors) graph_.remove(id);
+    std::vector<FactorId> ids = add(std::move(new_factors), new_values);
+    BackEndReport report = minimize(params_.update_iterations);
+    report.new_factor_ids = std::move(ids);
+    return report;
+  }
+
+  BackEndReport solve() override { return minimize(params_.max_iterations); }
+  void set_values(const Values& values) override { values_.merge(values); }
+  const Values& estimate() const override { return values_; }
+  const graph::FactorGraph& graph() const override { return graph_; }
+
+  Result<Eigen::MatrixXd> marginal_covariance(Key key) override {
+    if (!equations_.contains(key)) {
+      return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key), "marginal covariance");
+    }
+    equations_.linearize(graph_, values_);
+    if (factorize(equations_.lower_hessian()) != linear::CholeskyStatus::kOk) {
+      return fail(ErrorCode::kInvalid, "the normal equations are singular", "marginal covariance",
+                  "a prior and factors that determine every variable");
+    }
+    const int row = equations_.first_row(key);
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(equations_.gradient().rows(), key.dimension());
+    unit.middleRows(row, key.dimension()).setIdentity();
+    return Eigen::MatrixXd(cholesky_.solve(unit).middleRows(row, key.dimension()));
+  }
+
+ private:
+  linear::CholeskyStatus factorize(const Eigen::SparseMatrix<double>& lower) {
+    return cholesky_.factorize(lower, equations_.block_starts());
+  }
+
+  BackEndReport begin_report() const {
+    BackEndReport report;
+    report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
+    report.num_variables = static_cast<std::int64_t>(equations_.variables().size());
+    return report;
+  }
+
+  // delta of (H + lambda diag(H)) delta = -g.
+  bool solve_step(double lambda, Eigen::VectorXd& delta) {
+    damped_ = equations_.lower_hessian();
+    if (lambda > 0) {
+      for (int i = 0; i < damped_.cols(); ++i) {
+        damped_.valuePtr()[damped_.outerIndexPtr()[i]] *= 1 + lambda;
+      }
+    }
+    if (factorize(damped_) != linear::CholeskyStatus::kOk) return false;
+    delta = -cholesky_.solve(equations_.gradient());
+    return delta.allFinite();
+  }
+
+  void apply(const Eigen::VectorXd& delta) {
+    int row = 0;
+    for (const Key key : equations_.variables()) {
+      values_.retract(key, delta.segment(row, key.dimension()));
+      row += key.dimension();
+    }
+  }
+
+  BackEndReport minimize(int max_iterations) {
+    BackEndReport report = begin_report();
+    if (report.num_factors == 0) return report;
+    double chi2 = equations_.linearize(graph_, values_);
+    report.chi2_initial = report.chi2 = chi2;
+    report.status = std::isfinite(chi2) ? SolveStatus::kMaxIterations : SolveStatus::kNotFinite;
+    if (report.status == SolveStatus::kNotFinite) return report;
+    double lambda = params_.use_damping ? params_.initial_lambda : 0;
+    double increase = params_.lambda_increase;
+    Eigen::VectorXd delta;
+    while (report.num_iterations < max_iterations) {
+      if (!solve_step(lambda, delta)) {
+        report.status = SolveStatus::kRankDeficient;
+        break;
+      }
+      ++report.num_iterations;
+      const Values before = values_;
+      apply(delta);
+      report.num_relinearized += report.num_variables;
+      // Damped steps are judged by chi2 and linearised anew; plain ones always stand.
+      const double chi2_after = equations_.linearize(graph_, values_);
+      const bool is_success =
+          std::isfinite(chi2_after) && (!params_.use_damping || chi2_after < chi2);
+      if (is_success) {
+        const double decrease = chi2 - chi2_after;
+        const double chi2_before = chi2;
+        report.chi2 = chi2 = chi2_after;
+        lambda *= params_.lambda_decrease;
+        if (delta.squaredNorm() < params_.min_squared_step ||
+            (params_.min_relative_decrease > 0 &&
+             std::abs(decrease) <= params_.min_relative_decrease * chi2_before)) {
+          report.status = SolveStatus::kConverged;
+          break;
+        }
+        continue;
+      }
+      values_ = before;
+      equations_.linearize(graph_, values_);
+      if (!params_.use_damping) {
+        report.status = SolveStatus::kNotFinite;
+        break;
+      }
+      if (delta.squaredNorm() < params_.min_squared_step) {
+        report.status = SolveStatus::kConverged;
+        break;
+      }
+      lambda *= increase;
+      increase *= 2;
+    }
+    return report;
+  }
+
+  LeastSquaresParams params_;
+  graph::FactorGraph graph_;
+  Values values_;
+  NormalEquations equations_;
+  linear::SparseCholesky cholesky_;
+  Eigen::SparseMatrix<double> damped_;
+};
+
+}  // namespace
+
+std::string to_text(SolveStatus status) {
+  constexpr const char* kNames[] = {"converged", "max_iterations", "rank_deficient", "not_finite",
+                                    "empty"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+std::unique_ptr<BackEnd> make_least_squares(const LeastSquaresParams& params) {
+  return std::make_unique<LeastSquares>(params);
+}
+
+LeastSquaresParams spa_params() {
+  LeastSquaresParams params;
+  params.use_damping = true;
+  params.max_iterations = 40;
+  params.min_relative_decrease = 0;
+  return params;
+}
+
+}  // namespace corridor::backend
