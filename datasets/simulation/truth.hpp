@@ -1,0 +1,53 @@
+// What the simulator drew and no system may see: the sidecar LOG.truth.toml of a simulated log.
+// The true poses are not here; they lie in LOG.tum.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/simulation/world.hpp"
+#include "slam/core/pose2.hpp"
+#include "slam/core/result.hpp"
+
+namespace corridor::simulation {
+
+// While begin_s <= t < end_s both wheels spin: each turns (1 + ratio) times as far as the robot moves
+// over it. The robot's own motion is that of a drive without the slip.
+struct SlipInterval {
+  double begin_s = 0;
+  double end_s = 0;
+  double ratio = 0;
+};
+
+// Scans from begin_s to end_s (stamps, both included) see walls of one direction only: they say
+// nothing about the position along direction_rad (world frame, in [0, pi)).
+struct DegenerateInterval {
+  double begin_s = 0;
+  double end_s = 0;
+  double direction_rad = 0;
+};
+
+struct SimulationTruth {
+  CorridorShape world;
+  Pose2 T_world_base_start;
+  double left_scale = 1;   // recorded wheel path / true wheel path
+  double right_scale = 1;
+  std::vector<SlipInterval> slips;
+  double gyro_bias_radps = 0;
+  double accel_bias_x_mps2 = 0;
+  double accel_bias_y_mps2 = 0;
+  double range_max_m = 0;
+  double range_sigma_m = 0;
+  // nullopt where the sidecar does not say; some logs come from other simulators.
+  std::optional<std::vector<DegenerateInterval>> degenerate;
+};
+
+// The text of LOG.truth.toml.
+std::string truth_toml(const SimulationTruth& truth);
+
+// Reads a LOG.truth.toml; unknown keys and missing ones (other than [lidar] degenerate) are errors.
+Result<SimulationTruth> read_truth(const std::filesystem::path& path);
+
+}  // namespace corridor::simulation
