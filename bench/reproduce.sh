@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# From a fresh Debian 12 to the paper's two tables: installs what is missing, builds, runs the suite
+# `paper` and leaves its report in reports/out/paper/. Needs root only while packages are missing.
+# Every run starts from nothing; the results of the run before are kept in reports/out/paper.previous/.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+usage="usage: bench/reproduce.sh    (no arguments; see README.md for single commands)"
+case "${1:-}" in
+  "") ;;
+  -h | --help) echo "$usage"; exit 0 ;;
+  *) corridor_die "unknown argument '$1'; $usage" ;;
+esac
+
+jobs=$(corridor_jobs)
+out=$corridor_root/reports/out/paper
+cd "$corridor_root"
+
+build() {
+  cmake --preset release &&
+    cmake --build --preset release --target corridor-bench --parallel "$jobs"
+}
+
+run_suite() {
+  mkdir -p "$(dirname "$out")" || return
+  if [ -e "$out" ]; then
+    rm -rf "$out.previous" && mv "$out" "$out.previous" || return
+  fi
+  build/release/bin/corridor-bench run paper --out "$out" --jobs "$jobs"
+}
+
+status=0
+corridor_step "packages" corridor_install
+corridor_step "build" build
+corridor_step "suite 'paper' with $jobs cases at a time" run_suite || status=$?
+corridor_print_steps
+[ ! -e "$out/index.html" ] || printf '\nThe report: %s\n' "$out/index.html"
+exit "$status"

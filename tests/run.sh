@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds the release and runs every test of it.
+#   tests/run.sh          release build and its tests (20 minutes at most on 2 cores)
+#   tests/run.sh --full   also formatting, clang-tidy, and build and tests with AddressSanitizer and
+#                         UndefinedBehaviorSanitizer (40 minutes at most)
+# Tests that need recorded data look for it in $CORRIDOR_BENCH_DATA and are skipped, with a message,
+# where it is not. Needs root only while packages are missing.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../bench/setup.sh"
+
+is_full=false
+for argument in "$@"; do
+  case "$argument" in
+    --full) is_full=true ;;
+    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    *) corridor_die "unknown argument '$argument'; expected --full or nothing" ;;
+  esac
+done
+
+jobs=$(corridor_jobs)
+cd "$corridor_root"
+
+build() {
+  cmake --preset "$1" &&
+    cmake --build --preset "$1" --parallel "$jobs"
+}
+
+run_tests() {
+  ctest --preset "$1" --parallel "$jobs" --output-junit "$corridor_root/build/$1/tests.xml"
+}
+
+our_sources() {
+  find slam baselines datasets bench reports tests -path reports/out -prune -o \
+    \( -name '*.cpp' -o -name '*.hpp' \) -print | sort
+}
+
+check_format() {
+  our_sources | xargs clang-format --dry-run -Werror &&
+    echo "$(our_sources | wc -l) files are formatted"
+}
+
+# Library and program sources; the tests' macros make most checks fire on code nobody wrote.
+check_tidy() {
+  our_sources | grep -v '^tests/' | grep '\.cpp$' |
+    xargs --max-procs="$jobs" --max-args=1 clang-tidy --quiet -p build/release --warnings-as-errors='*' 2>&1 |
+    grep -v -E '^[0-9]+ warnings? (generated|treated as error)|^Suppressed |^Use -' || true
+  return "${PIPESTATUS[1]}"
+}
+
+# Number in attribute $2 of the summary that ctest wrote for preset $1.
+count_of() {
+  local file=build/$1/tests.xml
+  [ -e "$file" ] || { echo 0; return; }
+  awk -v name="$2" 'match($0, "[ \t]" name "=\"[0-9]+\"") {
+    text = substr($0, RSTART, RLENGTH); gsub(/[^0-9]/, "", text); print text; exit }' "$file"
+}
+
+failed_steps=0
+presets=(release)
+rm -f build/release/tests.xml build/dev/tests.xml
+if $is_full; then
+  presets+=(dev)
+  corridor_step "packages" corridor_install tests
+  corridor_step "formatting" check_format || failed_steps=$((failed_steps + 1))
+else
+  corridor_step "packages" corridor_install
+fi
+
+for preset in "${presets[@]}"; do
+  if corridor_step "build '$preset'" build "$preset"; then
+    corridor_step "tests of '$preset'" run_tests "$preset" || failed_steps=$((failed_steps + 1))
+  else
+    failed_steps=$((failed_steps + 1))
+  fi
+done
+
+if $is_full; then
+  corridor_step "clang-tidy" check_tidy || failed_steps=$((failed_steps + 1))
+fi
+
+corridor_print_steps
+tests=0 failed=0 skipped=0
+for preset in "${presets[@]}"; do
+  tests=$((tests + $(count_of "$preset" tests)))
+  failed=$((failed + $(count_of "$preset" failures)))
+  skipped=$((skipped + $(count_of "$preset" skipped) + $(count_of "$preset" disabled)))
+done
+printf '\n%d skipped, %d steps failed\n' "$skipped" "$failed_steps"
+printf '%d passed, %d failed\n' $((tests - failed - skipped)) "$failed"
+[ "$failed_steps" -eq 0 ]
