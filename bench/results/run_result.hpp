@@ -1,6 +1,6 @@
 // One case, run and scored: plain data with a unit in every field's name.
-// The JSON keys and the columns of the store are these names; they are a contract: every key is always
-// written, null where it does not apply; new ones are added, none is renamed.
+// The JSON keys and the columns of the store are these names; they are a contract: every key is
+// always written, null where it does not apply; new ones are added, none is renamed.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,11 @@ namespace corridor::results {
 
 // How a case ended. Everything but kOk is a row in every table, never a gap.
 enum class CaseStatus {
-  kOk,            // ran to the end and every expected pose was matched
-  kPartial,       // ran to the end, but poses are missing
-  kDiverged,      // a pose or map is not finite, or the system itself reported that it is lost at the end
-  kFailed,        // the system returned an error, or the process crashed
+  kOk,        // ran to the end and every expected pose was matched
+  kPartial,   // ran to the end, but poses are missing
+  kDiverged,  // a pose or map is not finite, or the system itself reported that it is lost at the
+              // end
+  kFailed,    // the system returned an error, or the process crashed
   kTimeout,
   kOutOfMemory,
   kBadInput,
@@ -74,8 +75,8 @@ struct RunResult {
   std::string suite;
   std::string system, profile;
   std::optional<std::string> backend;
-  std::string dataset;                       // catalogue name, scenario name or file
-  std::optional<std::uint64_t> data_seed;    // null for recorded data
+  std::string dataset;                     // catalogue name, scenario name or file
+  std::optional<std::uint64_t> data_seed;  // null for recorded data
   std::uint64_t system_seed = 0;
   int threads = 1;
   std::string parameters_hash;
@@ -89,12 +90,12 @@ struct RunResult {
   std::optional<std::string> association, alignment;
 
   // accuracy
-  TrajectoryScores final_scores;             // keys without prefix
-  TrajectoryScores online_scores;            // keys with prefix online_
+  TrajectoryScores final_scores;   // keys without prefix
+  TrajectoryScores online_scores;  // keys with prefix online_
   RelationScores final_relations;
-  RelationScores online_relations;           // keys with prefix online_
-  MapScores own_map;                         // the system's own map
-  MapScores rendered_map;                    // one common mapper's map of its trajectory; prefix rendered_
+  RelationScores online_relations;  // keys with prefix online_
+  MapScores own_map;                // the system's own map
+  MapScores rendered_map;           // one common mapper's map of its trajectory; prefix rendered_
 
   // estimator
   std::optional<double> nees_mean;
@@ -103,7 +104,7 @@ struct RunResult {
   std::optional<std::int64_t> factors, variables, relinearised;
   std::optional<double> slip_precision, slip_recall, slip_latency_s;
   std::optional<double> degeneracy_precision, degeneracy_recall;
-  std::map<std::string, double> counters;    // SlamEstimate::counters as given
+  std::map<std::string, double> counters;  // SlamEstimate::counters as given
 
   // cost: step() and finish() only
   std::vector<StageTimes> stages;
