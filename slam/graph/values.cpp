@@ -1,5 +1,7 @@
 #include "slam/graph/values.hpp"
 
+#include <cmath>
+
 #include "slam/core/expect.hpp"
 
 namespace corridor::graph {
@@ -22,7 +24,7 @@ void append_keys(const std::vector<std::optional<T>>& slots, VariableKind kind,
 }  // namespace
 
 std::string to_text(Key key) {
-  constexpr const char* kNames[] = {"pose", "velocity", "bias"};
+  constexpr const char* kNames[] = {"pose", "velocity", "bias", "wheel scale"};
   return std::string(kNames[static_cast<std::size_t>(key.kind)]) + " " + std::to_string(key.index);
 }
 
@@ -48,6 +50,11 @@ void Values::set_bias(std::uint32_t index, const Eigen::Vector3d& bias) {
   set(biases_, index, bias);
 }
 
+void Values::set_wheel_scale(std::uint32_t index, double scale_ratio) {
+  CORRIDOR_EXPECT(std::isfinite(scale_ratio));
+  set(wheel_scales_, index, scale_ratio);
+}
+
 bool Values::contains(Key key) const {
   const auto has = [&](const auto& slots) {
     return key.index < slots.size() && slots[key.index].has_value();
@@ -56,6 +63,7 @@ bool Values::contains(Key key) const {
     case VariableKind::kPose: return has(poses_);
     case VariableKind::kVelocity: return has(velocities_);
     case VariableKind::kBias: return has(biases_);
+    case VariableKind::kWheelScale: return has(wheel_scales_);
   }
   return false;
 }
@@ -65,6 +73,7 @@ const Eigen::Vector2d& Values::velocity(std::uint32_t index) const {
   return get(velocities_, index);
 }
 const Eigen::Vector3d& Values::bias(std::uint32_t index) const { return get(biases_, index); }
+double Values::wheel_scale(std::uint32_t index) const { return get(wheel_scales_, index); }
 
 void Values::retract(Key key, const Eigen::Ref<const Eigen::VectorXd>& delta) {
   CORRIDOR_EXPECT(contains(key) && delta.rows() == key.dimension());
@@ -74,6 +83,7 @@ void Values::retract(Key key, const Eigen::Ref<const Eigen::VectorXd>& delta) {
       return;
     case VariableKind::kVelocity: *velocities_[key.index] += delta; return;
     case VariableKind::kBias: *biases_[key.index] += delta; return;
+    case VariableKind::kWheelScale: *wheel_scales_[key.index] += delta(0); return;
   }
 }
 
@@ -87,6 +97,9 @@ void Values::merge(const Values& other) {
   for (std::uint32_t i = 0; i < other.biases_.size(); ++i) {
     if (other.biases_[i]) set(biases_, i, *other.biases_[i]);
   }
+  for (std::uint32_t i = 0; i < other.wheel_scales_.size(); ++i) {
+    if (other.wheel_scales_[i]) set(wheel_scales_, i, *other.wheel_scales_[i]);
+  }
 }
 
 std::vector<Key> Values::keys() const {
@@ -95,6 +108,7 @@ std::vector<Key> Values::keys() const {
   append_keys(poses_, VariableKind::kPose, keys);
   append_keys(velocities_, VariableKind::kVelocity, keys);
   append_keys(biases_, VariableKind::kBias, keys);
+  append_keys(wheel_scales_, VariableKind::kWheelScale, keys);
   return keys;
 }
 

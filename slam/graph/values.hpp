@@ -18,12 +18,14 @@ class Values {
   void set_pose(std::uint32_t index, const Pose2& T_map_base);
   void set_velocity(std::uint32_t index, const Eigen::Vector2d& velocity_mps);
   void set_bias(std::uint32_t index, const Eigen::Vector3d& bias);
+  void set_wheel_scale(std::uint32_t index, double scale_ratio);
 
   [[nodiscard]] bool contains(Key key) const;
   // Each requires contains(key).
   [[nodiscard]] const Pose2& pose(std::uint32_t index) const;
   [[nodiscard]] const Eigen::Vector2d& velocity(std::uint32_t index) const;
   [[nodiscard]] const Eigen::Vector3d& bias(std::uint32_t index) const;
+  [[nodiscard]] double wheel_scale(std::uint32_t index) const;
 
   // value := value (+) delta: Pose2::plus for poses, a sum for the others. `delta` has key.dimension() rows.
   void retract(Key key, const Eigen::Ref<const Eigen::VectorXd>& delta);
@@ -42,6 +44,7 @@ class Values {
   std::vector<std::optional<Pose2>> poses_;
   std::vector<std::optional<Eigen::Vector2d>> velocities_;
   std::vector<std::optional<Eigen::Vector3d>> biases_;
+  std::vector<std::optional<double>> wheel_scales_;
   std::size_t num_values_ = 0;
 };
 

@@ -1,0 +1,83 @@
+#include "slam/motion/imu_preintegration.hpp"
+
+#include <cmath>
+
+#include "slam/core/expect.hpp"
+
+namespace corridor::motion {
+namespace {
+
+Eigen::Matrix2d rotation(double theta_rad) {
+  const double c = std::cos(theta_rad);
+  const double s = std::sin(theta_rad);
+  return (Eigen::Matrix2d() << c, -s, s, c).finished();
+}
+
+// d R(theta) v / d theta = kTurn * R(theta) v.
+const Eigen::Matrix2d kTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
+
+}  // namespace
+
+ImuDelta ImuDelta::corrected(const Eigen::Vector3d& other_bias) const {
+  const Eigen::Vector3d change = other_bias - bias;
+  ImuDelta result = *this;
+  result.bias = other_bias;
+  result.theta_rad += theta_by_bias * change;
+  result.velocity_mps += velocity_by_bias * change;
+  result.position_m += position_by_bias * change;
+  return result;
+}
+
+ImuPreintegrator::ImuPreintegrator(const ImuModel& model, const Eigen::Vector3d& bias)
+    : model_(model) {
+  reset(bias);
+}
+
+void ImuPreintegrator::reset(const Eigen::Vector3d& bias) {
+  delta_ = ImuDelta{};
+  delta_.bias = bias;
+}
+
+void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
+  CORRIDOR_EXPECT(duration_s > 0);
+  ImuDelta& d = delta_;
+  const double dt = duration_s;
+  const double rate = sample.gyro_z_radps - d.bias(0);
+  const Eigen::Matrix2d R_base_imu = model_.T_base_imu.rotation();
+  const Eigen::Vector2d force(sample.accel_x_mps2 - d.bias(1), sample.accel_y_mps2 - d.bias(2));
+  const Eigen::Vector2d acceleration_base =
+      R_base_imu * force + rate * rate * model_.T_base_imu.translation_m();
+
+  // Midpoint rule: the rotation half way through the interval.
+  const Eigen::Matrix2d R = rotation(d.theta_rad + 0.5 * rate * dt);
+  const Eigen::Vector2d a = R * acceleration_base;
+  const Eigen::Vector2d turned = kTurn * a;
+
+  Eigen::Matrix<double, 5, 5> F = Eigen::Matrix<double, 5, 5>::Identity();
+  F.block<2, 1>(1, 0) = turned * dt;
+  F.block<2, 1>(3, 0) = 0.5 * turned * dt * dt;
+  F.block<2, 2>(3, 1) = Eigen::Matrix2d::Identity() * dt;
+  Eigen::Matrix<double, 5, 3> G = Eigen::Matrix<double, 5, 3>::Zero();
+  G(0, 0) = dt;
+  G.block<2, 2>(1, 1) = R * R_base_imu * dt;
+  G.block<2, 2>(3, 1) = 0.5 * R * R_base_imu * dt * dt;
+  const Eigen::Vector3d variance(model_.gyro_noise_radps * model_.gyro_noise_radps,
+                                 model_.accel_noise_mps2 * model_.accel_noise_mps2,
+                                 model_.accel_noise_mps2 * model_.accel_noise_mps2);
+  d.covariance = F * d.covariance * F.transpose() + G * variance.asDiagonal() * G.transpose();
+
+  Eigen::RowVector3d theta_mid_by_bias = d.theta_by_bias;
+  theta_mid_by_bias(0) -= 0.5 * dt;
+  Eigen::Matrix<double, 2, 3> a_by_bias = turned * theta_mid_by_bias;
+  a_by_bias.rightCols<2>() -= R * R_base_imu;
+  d.position_by_bias += d.velocity_by_bias * dt + 0.5 * a_by_bias * dt * dt;
+  d.velocity_by_bias += a_by_bias * dt;
+  d.theta_by_bias(0) -= dt;
+
+  d.position_m += d.velocity_mps * dt + 0.5 * a * dt * dt;
+  d.velocity_mps += a * dt;
+  d.theta_rad += rate * dt;
+  d.duration_s += dt;
+}
+
+}  // namespace corridor::motion
