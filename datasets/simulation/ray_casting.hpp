@@ -31,10 +31,11 @@ class RayCaster {
   // At a corner that two walls share the one with the smaller index is named.
   [[nodiscard]] std::optional<Hit> cast(const Eigen::Vector2d& origin_m, double direction_rad,
                                         double max_m) const;
-  [[nodiscard]] std::optional<double> range_m(const Eigen::Vector2d& origin_m,
-                                              double direction_rad, double max_m) const;
+  [[nodiscard]] std::optional<double> range_m(const Eigen::Vector2d& origin_m, double direction_rad,
+                                              double max_m) const;
 
  private:
+  void append_walls_of(const Eigen::Vector2d& cell_centre_m);
   [[nodiscard]] std::span<const std::uint32_t> walls_of(int column, int row) const;
 
   std::vector<Segment> walls_;

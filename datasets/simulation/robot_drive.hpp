@@ -15,7 +15,7 @@ namespace corridor::simulation {
 
 struct DriveState {
   Pose2 T_world_base;
-  double speed_mps = 0;      // along the base's x axis
+  double speed_mps = 0;  // along the base's x axis
   double yaw_rate_radps = 0;
 };
 

@@ -29,8 +29,8 @@ struct Scenario {
 // All rules broken, one line each, keys as "lidar.range_max_m"; empty = can be simulated.
 std::vector<std::string> violations(const Scenario& scenario);
 
-// Reads a scenario. Keys not given keep their defaults. On failure the Error lists ALL unknown keys,
-// wrong types and broken rules, each with its line.
+// Reads a scenario. Keys not given keep their defaults. On failure the Error lists ALL unknown
+// keys, wrong types and broken rules, each with its line.
 Result<Scenario> read_scenario(const std::filesystem::path& path);
 
 // Sets values by key, as "lidar.range_max_m" -> "6.0" or "world.alpha_deg" -> "80", and checks all.

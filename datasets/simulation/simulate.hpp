@@ -21,8 +21,8 @@ struct Simulated {
   SimulationTruth truth;
 };
 
-// Deterministic: the same scenario and seed give the same bytes. Requires violations(scenario) to be
-// empty, which read_scenario() and with_overrides() guarantee.
+// Deterministic: the same scenario and seed give the same bytes. Requires violations(scenario) to
+// be empty, which read_scenario() and with_overrides() guarantee.
 Simulated simulate(const Scenario& scenario, std::uint64_t seed);
 
 // The text of LOG.truth.toml.

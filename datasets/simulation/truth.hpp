@@ -13,8 +13,8 @@
 
 namespace corridor::simulation {
 
-// While begin_s <= t < end_s both wheels spin: each turns (1 + ratio) times as far as the robot moves
-// over it. The robot's own motion is that of a drive without the slip.
+// While begin_s <= t < end_s both wheels spin: each turns (1 + ratio) times as far as the robot
+// moves over it. The robot's own motion is that of a drive without the slip.
 struct SlipInterval {
   double begin_s = 0;
   double end_s = 0;
@@ -32,7 +32,7 @@ struct DegenerateInterval {
 struct SimulationTruth {
   CorridorShape world;
   Pose2 T_world_base_start;
-  double left_scale = 1;   // recorded wheel path / true wheel path
+  double left_scale = 1;  // recorded wheel path / true wheel path
   double right_scale = 1;
   std::vector<SlipInterval> slips;
   double gyro_bias_radps = 0;

@@ -1,5 +1,6 @@
-// The world a simulated robot drives in: straight walls, and the L-shaped corridor of the paper with
-// its key lengths a, b, c and angle alpha. It does not know sensors, robots or files other than TOML.
+// The world a simulated robot drives in: straight walls, and the L-shaped corridor of the paper
+// with its key lengths a, b, c and angle alpha. It does not know sensors, robots or files other
+// than TOML.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,9 +35,9 @@ struct Segment {
 // doors_every_m > 0 cuts recesses kDoorDepth_m deep and kDoorWidth_m wide into the four long walls,
 // away from the corridor, one per period, those of the inner walls half a period later.
 struct CorridorShape {
-  double a_m = 14.5;  // length of the right outer wall
-  double b_m = 21.0;  // length of the lower outer wall
-  double c_m = 5.0;   // width of both arms
+  double a_m = 14.5;                        // length of the right outer wall
+  double b_m = 21.0;                        // length of the lower outer wall
+  double c_m = 5.0;                         // width of both arms
   double alpha_rad = std::numbers::pi / 2;  // interior angle between the two outer walls
   double doors_every_m = 0;                 // period of the door recesses; 0 = no doors
 
@@ -63,8 +64,8 @@ std::vector<std::string> violations(const CorridorShape& shape);
 KeyWalls key_walls(const CorridorShape& shape);
 World make_corridor(const CorridorShape& shape);
 
-// Reads the [world] table (a_m b_m c_m alpha_deg doors_every_m; missing keys are errors, unknown keys
-// too) of a LOG.truth.toml or of a scenario; other tables are not looked at.
+// Reads the [world] table (a_m b_m c_m alpha_deg doors_every_m; missing keys are errors, unknown
+// keys too) of a LOG.truth.toml or of a scenario; other tables are not looked at.
 Result<World> read_world(const std::filesystem::path& path);
 
 }  // namespace corridor::simulation

@@ -1,0 +1,137 @@
+#include "datasets/simulation/robot_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slam/core/expect.hpp"
+
+namespace corridor::simulation {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+// A drive may take this many times the time of its straight path, plus the constant.
+constexpr double kPatience = 10;
+constexpr double kPatience_s = 60;
+
+// The centre lines of the two arms: start, corner and end of the route.
+struct CentreLine {
+  Vector2d start_m, corner_m, end_m;
+};
+
+CentreLine centre_line(const CorridorShape& shape, double end_margin_m) {
+  const KeyWalls key = key_walls(shape);
+  const Vector2d top_m = (key.top_end.a_m + key.top_end.b_m) / 2;
+  const Vector2d up = (key.right_outer.b_m - key.right_outer.a_m).normalized();
+  const Vector2d corner_m = (key.right_outer.a_m + key.right_inner.b_m) / 2;
+  return {{end_margin_m, shape.c_m / 2}, corner_m, top_m - end_margin_m * up};
+}
+
+// Unit vector to the left of the line.
+Vector2d across(const Vector2d& from_m, const Vector2d& to_m) {
+  const Vector2d along = (to_m - from_m).normalized();
+  return {-along.y(), along.x()};
+}
+
+// Evenly spaced inner points of the line, then its end, each moved across the line by a drawn
+// offset.
+void append_arm(const Vector2d& from_m, const Vector2d& to_m, const DriveParams& params, Rng& rng,
+                std::vector<Vector2d>& waypoints_m) {
+  const int num_parts = params.num_arm_waypoints + 1;
+  for (int i = 1; i <= num_parts; ++i) {
+    const double offset_m = rng.uniform(-params.lateral_spread_m, params.lateral_spread_m);
+    waypoints_m.push_back(from_m + (to_m - from_m) * i / num_parts +
+                          offset_m * across(from_m, to_m));
+  }
+}
+
+void append_way_back(const Vector2d& start_m, std::vector<Vector2d>& waypoints_m) {
+  std::vector<Vector2d> back_m(waypoints_m.rbegin() + 1, waypoints_m.rend());
+  waypoints_m.insert(waypoints_m.end(), back_m.begin(), back_m.end());
+  waypoints_m.push_back(start_m);
+}
+
+double approach(double value, double target, double max_change) {
+  return value + std::clamp(target - value, -max_change, max_change);
+}
+
+DriveState next_state(const DriveState& state, const Vector2d& waypoint_m, double cruise_mps,
+                      const DriveParams& params, double step_s) {
+  const Vector2d to_waypoint = waypoint_m - state.T_world_base.translation_m();
+  const double heading_error_rad =
+      wrap_angle(std::atan2(to_waypoint.y(), to_waypoint.x()) - state.T_world_base.theta_rad());
+  const bool is_turning = std::abs(heading_error_rad) > params.turn_in_place_deg * kRadPerDeg;
+  const double target_radps = std::clamp(params.heading_gain_per_s * heading_error_rad,
+                                         -params.yaw_rate_max_radps, params.yaw_rate_max_radps);
+  DriveState next;
+  next.speed_mps =
+      approach(state.speed_mps, is_turning ? 0 : cruise_mps, params.acceleration_mps2 * step_s);
+  next.yaw_rate_radps =
+      approach(state.yaw_rate_radps, target_radps, params.yaw_acceleration_radps2 * step_s);
+  const double path_m = 0.5 * (state.speed_mps + next.speed_mps) * step_s;
+  const double turn_rad = 0.5 * (state.yaw_rate_radps + next.yaw_rate_radps) * step_s;
+  next.T_world_base = state.T_world_base.plus({path_m, 0, turn_rad});
+  return next;
+}
+
+double straight_length_m(const DrivePlan& plan) {
+  double length_m = 0;
+  Vector2d from_m = plan.T_world_base_start.translation_m();
+  for (const Vector2d& waypoint_m : plan.waypoints_m) {
+    length_m += (waypoint_m - from_m).norm();
+    from_m = waypoint_m;
+  }
+  return length_m;
+}
+
+}  // namespace
+
+DrivePlan draw_plan(const CorridorShape& shape, const DriveParams& params, Rng rng) {
+  const CentreLine line = centre_line(shape, params.end_margin_m);
+  Rng start = rng.stream("start");
+  Rng speed = rng.stream("speed");
+  Rng lateral = rng.stream("lateral");
+  const double x_m =
+      line.start_m.x() + start.uniform(-params.start_spread_m, params.start_spread_m);
+  const double y_m =
+      line.start_m.y() + start.uniform(-params.start_spread_m, params.start_spread_m);
+  const double heading_deg = start.uniform(-params.heading_spread_deg, params.heading_spread_deg);
+
+  DrivePlan plan;
+  plan.T_world_base_start = Pose2(x_m, y_m, heading_deg * kRadPerDeg);
+  plan.speed_mps = speed.uniform(params.speed_min_mps, params.speed_max_mps);
+  append_arm(line.start_m, line.corner_m, params, lateral, plan.waypoints_m);
+  // The corner's waypoint is drawn across both arms.
+  plan.waypoints_m.back() += lateral.uniform(-params.lateral_spread_m, params.lateral_spread_m) *
+                             across(line.corner_m, line.end_m);
+  append_arm(line.corner_m, line.end_m, params, lateral, plan.waypoints_m);
+  if (params.is_return_trip) append_way_back({x_m, y_m}, plan.waypoints_m);
+  return plan;
+}
+
+Drive drive_along(const DrivePlan& plan, const DriveParams& params, double step_s) {
+  CORRIDOR_EXPECT(step_s > 0 && plan.speed_mps > 0);
+  const double allowed_s = kPatience_s + kPatience * straight_length_m(plan) / plan.speed_mps;
+  const auto max_states = static_cast<std::size_t>(allowed_s / step_s);
+  Drive drive{.step_s = step_s, .states = {{plan.T_world_base_start, 0, 0}}, .is_complete = false};
+  std::size_t waypoint_index = 0;
+  while (drive.states.size() < max_states) {
+    const DriveState& state = drive.states.back();
+    while (waypoint_index < plan.waypoints_m.size() &&
+           (plan.waypoints_m[waypoint_index] - state.T_world_base.translation_m()).norm() <=
+               params.waypoint_reach_m) {
+      ++waypoint_index;
+    }
+    if (waypoint_index == plan.waypoints_m.size()) {
+      drive.is_complete = true;
+      return drive;
+    }
+    drive.states.push_back(
+        next_state(state, plan.waypoints_m[waypoint_index], plan.speed_mps, params, step_s));
+  }
+  return drive;
+}
+
+}  // namespace corridor::simulation

@@ -1,0 +1,138 @@
+// The rules of a scenario: ranges of each parameter, and those that tie world, drive and rates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "datasets/simulation/scenario.hpp"
+
+namespace corridor::simulation {
+namespace {
+
+// The robot is a disc of this radius and must have room for it everywhere on its way.
+constexpr double kClearance_m = 0.5;
+// The least length of an arm's straight part between its first and its last waypoint.
+constexpr double kMinArm_m = 1.0;
+
+template <class P>
+void append(const char* section, const P& params, std::vector<std::string>& found) {
+  for (const std::string& line : param_violations(params)) {
+    found.push_back(fmt::format("{}.{}", section, line));
+  }
+}
+
+void check_rate(const char* key, double rate_hz, double imu_rate_hz,
+                std::vector<std::string>& found) {
+  const double ratio = imu_rate_hz / rate_hz;
+  if (ratio < 1 || std::abs(ratio - std::round(ratio)) > 1e-9 * ratio) {
+    found.push_back(fmt::format("{} = {}: expected a whole fraction of imu.rate_hz = {}", key,
+                                rate_hz, imu_rate_hz));
+  }
+}
+
+// Every corner of the box of shapes that a seed may draw.
+std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
+  const double spread = scenario.draw.length_spread;
+  const double alpha_spread_rad = scenario.draw.alpha_spread_deg * std::numbers::pi / 180;
+  std::vector<CorridorShape> shapes;
+  for (const double a : {-spread, spread}) {
+    for (const double b : {-spread, spread}) {
+      for (const double c : {-spread, spread}) {
+        for (const double alpha : {-alpha_spread_rad, alpha_spread_rad}) {
+          CorridorShape shape = scenario.world;
+          shape.a_m *= 1 + a;
+          shape.b_m *= 1 + b;
+          shape.c_m *= 1 + c;
+          shape.alpha_rad += alpha;
+          shapes.push_back(shape);
+        }
+      }
+    }
+  }
+  return shapes;
+}
+
+// Room beside a route through the corridor of this shape.
+double free_width_m(const CorridorShape& shape, const DriveParams& drive) {
+  const double braking_m =
+      drive.speed_max_mps * drive.speed_max_mps / (2 * drive.acceleration_mps2);
+  return 0.5 * shape.c_m - std::max(drive.start_spread_m, drive.lateral_spread_m) -
+         std::max(0.0, braking_m - drive.waypoint_reach_m);
+}
+
+struct ArmLengths {
+  double first_m, second_m;  // along the centre lines, first waypoint to corner to last
+};
+
+ArmLengths arm_lengths(const CorridorShape& shape, const DriveParams& drive) {
+  // The centre lines meet this far along either of them before the outer corner's projection.
+  const double setback_m =
+      0.5 * shape.c_m * (1 + std::cos(shape.alpha_rad)) / std::sin(shape.alpha_rad);
+  return {shape.b_m - setback_m - drive.end_margin_m, shape.a_m - setback_m - drive.end_margin_m};
+}
+
+void check_route(const Scenario& scenario, const CorridorShape& shape,
+                 std::vector<std::string>& found) {
+  const DriveParams& drive = scenario.drive;
+  if (free_width_m(shape, drive) < kClearance_m) {
+    found.push_back(fmt::format(
+        "drive.lateral_spread_m = {}: expected at least {} m of room on both sides of the route in "
+        "the narrowest corridor drawn, {:.3g} m wide, after start_spread_m, lateral_spread_m and "
+        "braking",
+        drive.lateral_spread_m, kClearance_m, shape.c_m));
+  }
+  if (drive.end_margin_m - drive.start_spread_m < kClearance_m) {
+    found.push_back(
+        fmt::format("drive.end_margin_m = {}: expected at least {} m more than "
+                    "start_spread_m = {}",
+                    drive.end_margin_m, kClearance_m, drive.start_spread_m));
+  }
+  const ArmLengths arms = arm_lengths(shape, drive);
+  if (std::min(arms.first_m, arms.second_m) < kMinArm_m) {
+    found.push_back(
+        fmt::format("drive.end_margin_m = {}: expected arms of at least {} m between "
+                    "the waypoints, not {:.3g} m and {:.3g} m",
+                    drive.end_margin_m, kMinArm_m, arms.first_m, arms.second_m));
+    return;
+  }
+  // What the drawn offsets can at most take from the way.
+  const double shortened_m =
+      2 * drive.start_spread_m + 4 * drive.lateral_spread_m + 4 * drive.waypoint_reach_m;
+  const double least_s =
+      std::max(0.0, arms.first_m + arms.second_m - shortened_m) / drive.speed_max_mps;
+  if (scenario.slip.num_slips * scenario.slip.duration_s > least_s) {
+    found.push_back(
+        fmt::format("slip.num_slips = {}: expected slips of {:.3g} s in all at most, "
+                    "the shortest drive",
+                    scenario.slip.num_slips, least_s));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> violations(const Scenario& scenario) {
+  std::vector<std::string> found = violations(scenario.world);
+  append("lidar", scenario.lidar, found);
+  append("wheels", scenario.wheels, found);
+  append("imu", scenario.imu, found);
+  append("drive", scenario.drive, found);
+  append("slip", scenario.slip, found);
+  append("draw", scenario.draw, found);
+  if (scenario.name.empty()) found.push_back("name = \"\": expected a name");
+  if (!found.empty()) return found;
+
+  check_rate("lidar.rate_hz", scenario.lidar.rate_hz, scenario.imu.rate_hz, found);
+  check_rate("wheels.rate_hz", scenario.wheels.rate_hz, scenario.imu.rate_hz, found);
+  for (const CorridorShape& shape : extreme_shapes(scenario)) {
+    std::vector<std::string> problems = violations(shape);
+    for (std::string& line : problems) line += ", at the edge of what [draw] allows";
+    if (problems.empty()) check_route(scenario, shape, problems);
+    if (problems.empty()) continue;
+    found.insert(found.end(), problems.begin(), problems.end());
+    break;  // the other edges would say the same again
+  }
+  return found;
+}
+
+}  // namespace corridor::simulation

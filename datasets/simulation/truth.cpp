@@ -1,0 +1,172 @@
+#include "datasets/simulation/truth.hpp"
+
+#include <fmt/format.h>
+
+#include "datasets/simulation/scenario_params.hpp"
+#include "datasets/simulation/toml_input.hpp"
+
+namespace corridor::simulation {
+namespace {
+
+struct StartTable {
+  double x_m, y_m, yaw_rad;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"x_m", "m", "start"}, p.x_m);
+    v(ParamInfo{"y_m", "m", "start"}, p.y_m);
+    v(ParamInfo{"yaw_rad", "rad", "start"}, p.yaw_rad);
+  }
+};
+
+struct ImuTable {
+  double gyro_bias_radps, accel_bias_x_mps2, accel_bias_y_mps2;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"gyro_bias_radps", "rad/s", "constant bias"}, p.gyro_bias_radps);
+    v(ParamInfo{"accel_bias_x_mps2", "m/s2", "constant bias"}, p.accel_bias_x_mps2);
+    v(ParamInfo{"accel_bias_y_mps2", "m/s2", "constant bias"}, p.accel_bias_y_mps2);
+  }
+};
+
+struct WheelTable {
+  double left_scale, right_scale;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"left_scale", "1", "recorded / true path"}, p.left_scale);
+    v(ParamInfo{"right_scale", "1", "recorded / true path"}, p.right_scale);
+  }
+};
+
+struct LidarTable {
+  double range_max_m, range_sigma_m;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"range_max_m", "m", "range"}, p.range_max_m);
+    v(ParamInfo{"range_sigma_m", "m", "noise"}, p.range_sigma_m);
+  }
+};
+
+struct SlipRow {
+  SlipInterval interval;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"begin_s", "s", "first moment"}, p.interval.begin_s);
+    v(ParamInfo{"end_s", "s", "last moment"}, p.interval.end_s);
+    v(ParamInfo{"ratio", "1", "spin"}, p.interval.ratio);
+  }
+};
+
+struct DegenerateRow {
+  DegenerateInterval interval;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"begin_s", "s", "first scan"}, p.interval.begin_s);
+    v(ParamInfo{"end_s", "s", "last scan"}, p.interval.end_s);
+    v(ParamInfo{"direction_rad", "rad", "free direction"}, p.interval.direction_rad);
+  }
+};
+
+template <class Row>
+std::string rows_text(std::string_view key, const auto& intervals) {
+  std::string text = fmt::format("{} = [", key);
+  const char* separator = "";
+  for (const auto& interval : intervals) {
+    Row row{interval};
+    std::string fields;
+    Row::visit(row, [&](const ParamInfo& info, double& value) {
+      fields += fmt::format("{}{} = {}", fields.empty() ? "" : ", ", info.name, value);
+    });
+    text += fmt::format("{}{{ {} }}", separator, fields);
+    separator = ", ";
+  }
+  return text + "]\n";
+}
+
+template <class Table>
+std::string table_text(std::string_view section, Table table) {
+  std::string text = fmt::format("[{}]\n", section);
+  Table::visit(table, [&](const ParamInfo& info, double& value) {
+    text += fmt::format("{} = {}\n", info.name, value);
+  });
+  return text;
+}
+
+// Takes an array of rows out of a table, so that read_table() sees only its plain keys.
+template <class Row, class Interval>
+void take_rows(toml::table& document, std::string_view section, std::string_view key,
+               std::vector<Interval>& intervals, std::vector<TomlProblem>& problems) {
+  toml::table* table = document.get_as<toml::table>(section);
+  if (table == nullptr) return;  // read_section() reports it
+  const toml::node* node = table->get(key);
+  if (node == nullptr) return;
+  const std::string name = fmt::format("{}.{}", section, key);
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    problems.push_back({node->source().begin.line, name + " has another type; expected a list"});
+  } else {
+    for (const toml::node& element : *array) {
+      Row row{};
+      if (const toml::table* fields = element.as_table()) {
+        read_table(*fields, name, MissingKeys::kAreErrors, row, problems);
+      } else {
+        problems.push_back({element.source().begin.line, name + ": expected tables in the list"});
+      }
+      intervals.push_back(row.interval);
+    }
+  }
+  table->erase(key);
+}
+
+template <class Table>
+Table read_section(const toml::table& document, std::string_view section,
+                   std::vector<TomlProblem>& problems) {
+  Table values{};
+  if (const toml::table* table = document.get_as<toml::table>(section)) {
+    read_table(*table, section, MissingKeys::kAreErrors, values, problems);
+  } else {
+    problems.push_back({0, fmt::format("no table [{}]; expected one", section)});
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string truth_toml(const SimulationTruth& truth) {
+  const Pose2& start = truth.T_world_base_start;
+  std::string text = table_text("world", to_params(truth.world)) +
+                     table_text("start", StartTable{start.x_m(), start.y_m(), start.theta_rad()}) +
+                     table_text("wheels", WheelTable{truth.left_scale, truth.right_scale}) +
+                     rows_text<SlipRow>("slips", truth.slips) +
+                     table_text("imu", ImuTable{truth.gyro_bias_radps, truth.accel_bias_x_mps2,
+                                                truth.accel_bias_y_mps2}) +
+                     table_text("lidar", LidarTable{truth.range_max_m, truth.range_sigma_m});
+  if (truth.degenerate) text += rows_text<DegenerateRow>("degenerate", *truth.degenerate);
+  return text;
+}
+
+Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
+  Result<toml::table> document = parse_toml(path);
+  if (!document) return tl::make_unexpected(document.error());
+  std::vector<TomlProblem> problems;
+  SimulationTruth truth;
+  const toml::table* lidar_table = document->get_as<toml::table>("lidar");
+  if (lidar_table != nullptr && lidar_table->contains("degenerate")) truth.degenerate.emplace();
+  if (truth.degenerate) {
+    take_rows<DegenerateRow>(*document, "lidar", "degenerate", *truth.degenerate, problems);
+  }
+  take_rows<SlipRow>(*document, "wheels", "slips", truth.slips, problems);
+
+  truth.world = to_shape(read_section<WorldParams>(*document, "world", problems));
+  const auto start = read_section<StartTable>(*document, "start", problems);
+  const auto wheels = read_section<WheelTable>(*document, "wheels", problems);
+  const auto imu = read_section<ImuTable>(*document, "imu", problems);
+  const auto lidar = read_section<LidarTable>(*document, "lidar", problems);
+  find_unknown_keys(*document, "", {"world", "start", "wheels", "imu", "lidar"}, problems);
+  if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
+
+  truth.T_world_base_start = Pose2(start.x_m, start.y_m, start.yaw_rad);
+  truth.left_scale = wheels.left_scale;
+  truth.right_scale = wheels.right_scale;
+  truth.gyro_bias_radps = imu.gyro_bias_radps;
+  truth.accel_bias_x_mps2 = imu.accel_bias_x_mps2;
+  truth.accel_bias_y_mps2 = imu.accel_bias_y_mps2;
+  truth.range_max_m = lidar.range_max_m;
+  truth.range_sigma_m = lidar.range_sigma_m;
+  return truth;
+}
+
+}  // namespace corridor::simulation
