@@ -1,0 +1,24 @@
+#include "slam/fusion/fusion_params.hpp"
+
+namespace corridor::fusion {
+
+std::vector<std::string> FusionParams::relations() const {
+  std::vector<std::string> broken;
+  if (coarse_resolution_m <= fine_resolution_m) {
+    broken.push_back(fmt::format("coarse_resolution_m = {}: expected more than fine_resolution_m = {}",
+                                 coarse_resolution_m, fine_resolution_m));
+  }
+  return broken;
+}
+
+FusionParams fusion_paper_params() {
+  FusionParams params;
+  params.use_directional_degeneracy = false;
+  params.use_statistical_slip_test = false;
+  params.use_submaps = false;
+  params.use_wheel_scale = false;
+  params.use_loop_closing = false;
+  return params;
+}
+
+}  // namespace corridor::fusion

@@ -1,0 +1,45 @@
+#include "slam/matching/observability.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace corridor::matching {
+
+ObservableMatch observable_part(const MatchResult& match, const ObservabilityParams& params) {
+  // In units in which the floor is the identity, metres and radians can be compared.
+  const Eigen::Vector3d unit(params.translation_floor_m, params.translation_floor_m,
+                             params.rotation_floor_rad);
+  const Eigen::Matrix3d scaled = unit.asDiagonal() * match.information * unit.asDiagonal();
+  const Eigen::Matrix3d spurious =
+      unit.asDiagonal() * match.spurious_information * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scaled);
+  const double best = eigen.eigenvalues()(2);
+
+  ObservableMatch part;
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d gradient = unit.cwiseProduct(match.gradient);
+  for (int i = 0; i < 3; ++i) {
+    const double lambda = eigen.eigenvalues()(i);
+    const Eigen::Vector3d v = eigen.eigenvectors().col(i);
+    const double noise = v.dot(spurious * v);
+    const bool is_seen = lambda > params.min_information_ratio * best &&
+                         lambda > params.min_spurious_factor * noise && lambda > 0;
+    if (!is_seen) continue;
+    ++part.num_observable;
+    step -= v * (v.dot(gradient) / lambda);
+    information += v * v.transpose() / (1 / lambda + 1);  // the floor's variance is 1 in these units
+  }
+  part.T_map_base = match.T_map_base.plus(unit.cwiseProduct(step));
+  part.information =
+      unit.cwiseInverse().asDiagonal() * information * unit.cwiseInverse().asDiagonal();
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> translation(
+      Eigen::Matrix2d(match.information.topLeftCorner<2, 2>()));
+  part.weakest_direction_base = translation.eigenvectors().col(0);
+  const double largest = translation.eigenvalues()(1);
+  part.weakest_information_ratio = largest > 0 ? translation.eigenvalues()(0) / largest : 0;
+  return part;
+}
+
+}  // namespace corridor::matching
