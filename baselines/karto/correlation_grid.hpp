@@ -1,0 +1,69 @@
+// The look-up grid of correlative matching: end points of a local map, smeared, one byte a cell.
+// [Konolige2010] section IV; [Olson2009] section III. It moves with the search: its centre is the
+// predicted pose. It keeps no free space.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "baselines/karto/smear_kernel.hpp"
+
+namespace corridor::karto {
+
+struct GridSpec {
+  double resolution_m = 0.01;
+  double window_m = 0.3;    // side of the search window
+  double reach_m = 12;      // longest beam
+  double smear_m = 0.03;    // standard deviation of an end point
+
+  // round(window / resolution) + 1 + 2 * ceil(reach / resolution)
+  [[nodiscard]] int side_cells() const;
+};
+
+// Value of a linear index that stands for "no end point at all".
+inline constexpr std::int32_t kNoCell = std::numeric_limits<std::int32_t>::min();
+
+// Cells are addressed by linear index = column + row * stride(), and only the linear index is
+// range-checked by those who look up, as in the original: stride() is the side padded to 8.
+class CorrelationGrid {
+ public:
+  explicit CorrelationGrid(const GridSpec& spec);
+
+  // Empties the grid and moves its middle cell's centre to a point of the map.
+  void reset(const Eigen::Vector2d& centre_map_m);
+  // Sets the cell of each point to kOccupied and stamps the kernel around it with max().
+  void add_points(std::span<const Eigen::Vector2d> points_map_m);
+
+  [[nodiscard]] int side_cells() const { return side_; }
+  [[nodiscard]] int stride() const { return stride_; }
+  [[nodiscard]] std::int32_t num_cells() const { return side_ * stride_; }
+  [[nodiscard]] double resolution_m() const { return resolution_m_; }
+
+  // Nearest cell (column, row); may lie outside.
+  [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& point_map_m) const;
+  [[nodiscard]] std::int32_t linear_index(const Eigen::Vector2i& cell) const {
+    return cell.x() + cell.y() * stride_;
+  }
+  // At least kMargin readable bytes lie on either side of [0, num_cells()).
+  [[nodiscard]] const std::uint8_t* cells() const { return bytes_.data() + kMargin; }
+  static constexpr int kMargin = 64;
+
+ private:
+  void stamp(const Eigen::Vector2i& cell);
+  void stamp_inside(std::int32_t first_index);
+  void stamp_clipped(const Eigen::Vector2i& cell);
+  void erase(std::int32_t centre_index);
+
+  double resolution_m_;
+  int side_;
+  int stride_;
+  SmearKernel kernel_;
+  Eigen::Vector2d corner_map_m_ = Eigen::Vector2d::Zero();  // centre of cell (0, 0)
+  std::vector<std::uint8_t> bytes_;
+  std::vector<std::int32_t> stamped_;  // linear indices of the occupied cells, to erase only those
+};
+
+}  // namespace corridor::karto

@@ -1,0 +1,257 @@
+#include "baselines/karto/karto_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baselines/karto/between_key_scans.hpp"
+#include "baselines/karto/key_scan_test.hpp"
+#include "baselines/karto/mapper.hpp"
+#include "baselines/karto/occupancy_rule.hpp"
+#include "slam/core/expect.hpp"
+#include "slam/motion/wheel_track.hpp"
+
+namespace corridor::karto {
+namespace {
+
+// The original's threshold for a sensor it does not know [m].
+constexpr double kMaxDefaultThreshold_m = 12.0;
+
+StepReport nothing_to_do(Timestamp stamp) {
+  StepReport report;
+  report.stamp = stamp;
+  return report;
+}
+
+struct ScanRecord {
+  Timestamp stamp;
+  std::optional<Pose2> T_odom_base;  // none: no wheel odometry so far
+  std::optional<KeyScanId> key_scan;
+};
+
+double range_threshold_of(const KartoParams& params, const RobotModel& robot,
+                          const LaserScan& scan) {
+  if (params.range_threshold_m > 0) return params.range_threshold_m;
+  double threshold_m = std::min(kMaxDefaultThreshold_m, robot.lidar.range_max_m);
+  if (std::isfinite(scan.range_max_m) && scan.range_max_m > 0) {
+    threshold_m = std::min(threshold_m, scan.range_max_m);
+  }
+  return threshold_m;
+}
+
+}  // namespace
+
+class KartoSlam::Impl {
+ public:
+  Impl(const KartoParams& params, const RobotModel& robot,
+       std::unique_ptr<backend::BackEnd> back_end, StageClock& clock)
+      : params_(params), robot_(robot), back_end_(std::move(back_end)), clock_(clock) {
+    CORRIDOR_EXPECT(back_end_ != nullptr);
+    CORRIDOR_EXPECT(param_violations(params).empty());
+  }
+
+  StepReport take(const WheelSample& sample) {
+    const auto in_stage = clock_.enter(Stage::kPredict);
+    wheels_.add(sample);
+    return nothing_to_do(sample.stamp);
+  }
+
+  Result<StepReport> take(const LaserScan& scan) {
+    if (auto error = defect_of(scan)) return tl::make_unexpected(*error);
+    update_odometry(scan.stamp);
+    records_.push_back({scan.stamp, T_odom_base_, std::nullopt});
+    if (T_odom_base_) consider(scan);
+    return report(scan.stamp);
+  }
+
+  Result<SlamEstimate> finish() {
+    const auto in_stage = clock_.enter(Stage::kFinish);
+    SlamEstimate estimate;
+    if (records_.empty()) return estimate;
+    if (!T_map_start_) {
+      return fail(ErrorCode::kInvalid, "no wheel odometry near any scan", "sensor log",
+                  "wheel samples");
+    }
+    if (mapper_) mapper_->publish_poses();
+    for (const TrajectoryPose& pose : final_poses()) CORRIDOR_ENSURE(estimate.trajectory.append(pose));
+    estimate.map = mapper_ ? build_karto_map(mapper_->scans(), T_map_start_->inverse(),
+                                             range_threshold_m_, params_)
+                           : GridMap{};
+    estimate.counters = counters();
+    return estimate;
+  }
+
+  [[nodiscard]] const PoseGraph* pose_graph() const {
+    return mapper_ ? &mapper_->pose_graph() : nullptr;
+  }
+  // Of a run that never had a key scan.
+  [[nodiscard]] const backend::BackEnd& unused_back_end() const { return *back_end_; }
+
+ private:
+  [[nodiscard]] std::optional<Error> defect_of(const LaserScan& scan) const {
+    if (scan.is_valid.size() != scan.num_beams()) {
+      return Error{ErrorCode::kInvalid, "scan with unequal numbers of ranges and validities",
+                   std::to_string(to_seconds(scan.stamp)) + " s", "as many"};
+    }
+    if (!records_.empty() && scan.stamp <= records_.back().stamp) {
+      return Error{ErrorCode::kInvalid, "scan's stamp does not increase",
+                   std::to_string(to_seconds(scan.stamp)) + " s", "stamps in order"};
+    }
+    return std::nullopt;
+  }
+
+  void update_odometry(Timestamp stamp) {
+    const auto in_stage = clock_.enter(Stage::kPredict);
+    if (const auto T_odom_base = wheels_.pose_at(stamp)) {
+      T_odom_base_ = T_odom_base;
+      if (!T_map_start_) T_map_start_ = T_odom_base;
+    } else {
+      ++num_without_odometry_;
+    }
+  }
+
+  // Makes a key scan of it if it is worth one.
+  void consider(const LaserScan& scan) {
+    std::optional<KeyScan> candidate;
+    {
+      const auto in_stage = clock_.enter(Stage::kPreprocess);
+      if (!mapper_) range_threshold_m_ = range_threshold_of(params_, robot_, scan);
+      candidate.emplace(scan, *T_odom_base_, range_threshold_m_, params_.use_barycentre);
+    }
+    if (!candidate->is_usable()) {
+      ++num_unusable_;
+      return;
+    }
+    if (!mapper_) {
+      mapper_.emplace(params_, range_threshold_m_, PoseGraph(std::move(back_end_), *T_map_start_),
+                      clock_);
+    } else if (!is_key_scan(mapper_->scans().back(), *candidate, params_)) {
+      return;
+    } else {
+      candidate->set_T_map_sensor(last_anchor().carried_to(*T_odom_base_) * scan.T_base_lidar);
+    }
+    mapper_->add(std::move(*candidate));
+    key_anchors_odom_.push_back(*T_odom_base_);
+    records_.back().key_scan = mapper_->scans().back().id;
+  }
+
+  [[nodiscard]] Anchor anchor(KeyScanId id) const {
+    return {key_anchors_odom_[id], mapper_->scans()[id].T_map_base()};
+  }
+  [[nodiscard]] Anchor last_anchor() const {
+    return anchor(static_cast<KeyScanId>(key_anchors_odom_.size() - 1));
+  }
+
+  // In the frame of the first scan. Before any odometry: where the robot will be found standing.
+  [[nodiscard]] Pose2 online_pose() const {
+    if (!T_odom_base_) return {};
+    const Pose2 T_map_base = mapper_ ? last_anchor().carried_to(*T_odom_base_) : *T_odom_base_;
+    return T_map_start_->between(T_map_base);
+  }
+
+  [[nodiscard]] StepReport report(Timestamp stamp) const {
+    StepReport report = nothing_to_do(stamp);
+    report.status = StepStatus::kTracked;
+    report.T_map_base = online_pose();
+    report.is_key_scan = records_.back().key_scan.has_value();
+    return report;
+  }
+
+  [[nodiscard]] std::vector<TrajectoryPose> final_poses() const {
+    std::vector<TrajectoryPose> poses;
+    std::vector<std::size_t> key_records;
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+      if (records_[i].key_scan) key_records.push_back(i);
+    }
+    std::size_t num_passed = 0;  // key scans at or before the record
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+      if (records_[i].key_scan) ++num_passed;
+      poses.push_back({records_[i].stamp,
+                       T_map_start_->between(final_pose(i, key_records, num_passed)), {}});
+    }
+    return poses;
+  }
+
+  // In the mapper's frame.
+  [[nodiscard]] Pose2 final_pose(std::size_t record, const std::vector<std::size_t>& key_records,
+                                 std::size_t num_passed) const {
+    const Pose2 T_odom_base = records_[record].T_odom_base.value_or(*T_map_start_);
+    if (key_records.empty()) return T_odom_base;
+    if (num_passed == 0) return anchor(0).carried_to(T_odom_base);
+    const auto id = static_cast<KeyScanId>(num_passed - 1);
+    if (records_[record].key_scan) return anchor(id).T_map_base;
+    if (num_passed == key_records.size()) return anchor(id).carried_to(T_odom_base);
+    const Timestamp earlier = records_[key_records[id]].stamp;
+    const Timestamp later = records_[key_records[id + 1]].stamp;
+    const double ratio = seconds_between(earlier, records_[record].stamp) /
+                         seconds_between(earlier, later);
+    return pose_between(anchor(id), anchor(id + 1), ratio, T_odom_base);
+  }
+
+  [[nodiscard]] std::map<std::string, double> counters() const {
+    std::map<std::string, double> totals = {
+        {"key_scans", static_cast<double>(key_anchors_odom_.size())},
+        {"unusable_scans", num_unusable_},
+        {"scans_without_odometry", num_without_odometry_}};
+    if (!mapper_) return totals;
+    const MapperCounters& mapper = mapper_->counters();
+    totals["sequential_matches"] = mapper.sequential_matches;
+    totals["near_chain_matches"] = mapper.near_chain_matches;
+    totals["near_chain_links"] = mapper.near_chain_links;
+    totals["coarse_loop_matches"] = mapper.coarse_loop_matches;
+    totals["fine_loop_matches"] = mapper.fine_loop_matches;
+    totals["loop_closures"] = mapper.loop_closures;
+    totals["failed_solves"] = mapper.failed_solves;
+    totals["factors"] = static_cast<double>(mapper_->pose_graph().factors().num_factors());
+    return totals;
+  }
+
+  KartoParams params_;
+  RobotModel robot_;
+  std::unique_ptr<backend::BackEnd> back_end_;
+  StageClock& clock_;
+  motion::WheelTrack wheels_;
+  std::optional<Pose2> T_odom_base_;
+  // First odometry pose: the mapper works in the frame of odometry, as the original, whose results
+  // depend on how its grids lie; what leaves this class is in the frame of the first scan.
+  std::optional<Pose2> T_map_start_;
+  double range_threshold_m_ = 0;
+  std::optional<Mapper> mapper_;
+  std::vector<ScanRecord> records_;
+  std::vector<Pose2> key_anchors_odom_;
+  int num_unusable_ = 0;
+  int num_without_odometry_ = 0;
+};
+
+KartoSlam::KartoSlam(const KartoParams& params, const RobotModel& robot,
+                     std::unique_ptr<backend::BackEnd> back_end)
+    : impl_(std::make_unique<Impl>(params, robot, std::move(back_end), stage_clock())) {}
+
+KartoSlam::~KartoSlam() = default;
+
+Result<StepReport> KartoSlam::step(const SensorEvent& event) {
+  if (const auto* wheels = std::get_if<WheelSample>(&event)) return impl_->take(*wheels);
+  if (const auto* scan = std::get_if<LaserScan>(&event)) return impl_->take(*scan);
+  return nothing_to_do(stamp_of(event));
+}
+
+Result<SlamEstimate> KartoSlam::finish() { return impl_->finish(); }
+
+const graph::FactorGraph& KartoSlam::solved_graph() const {
+  const PoseGraph* pose_graph = impl_->pose_graph();
+  return pose_graph != nullptr ? pose_graph->factors() : impl_->unused_back_end().graph();
+}
+
+const graph::Values& KartoSlam::solved_values() const {
+  const PoseGraph* pose_graph = impl_->pose_graph();
+  return pose_graph != nullptr ? pose_graph->values() : impl_->unused_back_end().estimate();
+}
+
+std::unique_ptr<SlamSystem> make_karto(const KartoParams& params, const RobotModel& robot,
+                                       std::unique_ptr<backend::BackEnd> back_end) {
+  return std::make_unique<KartoSlam>(params, robot, std::move(back_end));
+}
+
+}  // namespace corridor::karto

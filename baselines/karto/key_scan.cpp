@@ -1,0 +1,48 @@
+#include "baselines/karto/key_scan.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace corridor::karto {
+
+KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, double range_threshold_m,
+                 bool use_barycentre)
+    : stamp_(scan.stamp),
+      T_base_sensor_(scan.T_base_lidar),
+      T_odom_sensor_(T_odom_base * scan.T_base_lidar),
+      use_barycentre_(use_barycentre) {
+  const std::size_t num_beams = scan.num_beams();
+  beams_sensor_m_.resize(num_beams);
+  is_in_range_.resize(num_beams);
+  is_return_.resize(num_beams);
+  for (std::size_t i = 0; i < num_beams; ++i) {
+    const double range_m = scan.ranges_m[i];
+    const double angle_rad = scan.angle_rad(i);
+    const bool is_finite = std::isfinite(range_m);
+    is_return_[i] = is_finite && scan.is_valid[i] != 0;
+    is_in_range_[i] = is_return_[i] && range_m <= range_threshold_m;
+    beams_sensor_m_[i] =
+        is_finite ? Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad))
+                  : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  set_T_map_sensor(T_odom_sensor_);
+}
+
+void KeyScan::set_T_map_sensor(const Pose2& T_map_sensor) {
+  T_map_sensor_ = T_map_sensor;
+  const Eigen::Matrix2d R_map_sensor = T_map_sensor.rotation();
+  const Eigen::Vector2d t_map_sensor_m = T_map_sensor.translation_m();
+  points_map_m_.clear();
+  Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < beams_sensor_m_.size(); ++i) {
+    if (!is_in_range_[i]) continue;
+    points_map_m_.push_back(R_map_sensor * beams_sensor_m_[i] + t_map_sensor_m);
+    sum_m += points_map_m_.back();
+  }
+  const bool has_barycentre = use_barycentre_ && !points_map_m_.empty();
+  reference_map_m_ = has_barycentre
+                         ? Eigen::Vector2d(sum_m / static_cast<double>(points_map_m_.size()))
+                         : t_map_sensor_m;
+}
+
+}  // namespace corridor::karto
