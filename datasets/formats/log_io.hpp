@@ -1,6 +1,7 @@
 // Sensor logs in and out: one door for every log format of the suite.
-// Reading refuses what corridor::defects() finds; it never sorts, drops or repairs without being asked
-// to and without a note in the log's provenance. It knows no data set by name (datasets/catalog does).
+// Reading refuses what corridor::defects() finds; it never sorts, drops or repairs without being
+// asked to and without a note in the log's provenance. It knows no data set by name
+// (datasets/catalog does).
 #pragma once
 
 #include <filesystem>
@@ -27,13 +28,14 @@ std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_v
 
 enum class StampOrder {
   kStamp,  // a stamp that steps back is an error that names the row
-  kFile,   // rows are kept as they stand; stamps are made strictly increasing by isotonic regression
+  kFile,  // rows are kept as they stand; stamps are made strictly increasing by isotonic regression
 };
 
 struct ReadLogOptions {
   StampOrder order = StampOrder::kStamp;
-  // CARMEN: a range of at least this is no return, and the sensor's limit for FLASER lines. Where it
-  // is not given, ROBOTLASER1 lines state their own and FLASER lines take the robot model's limit.
+  // CARMEN: a range of at least this is no return, and the sensor's limit for FLASER lines. Where
+  // it is not given, ROBOTLASER1 lines state their own and FLASER lines take the robot model's
+  // limit.
   std::optional<double> no_return_range_m;
   // Calibration for logs that carry none; a log's own model and LOG.robot.toml go before it.
   std::optional<RobotModel> robot;
@@ -43,8 +45,8 @@ struct ReadLogOptions {
 // Reads a log, its calibration LOG.robot.toml and its truth LOG.tum, where they lie beside it.
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options = {});
 
-// The suite's own format: the robot model as TOML in the leading comment, then LIDAR, WHEELS and IMU
-// observations, gzip-compressed. Stamps are rounded to 100 ns. Writes no truth.
+// The suite's own format: the robot model as TOML in the leading comment, then LIDAR, WHEELS and
+// IMU observations, gzip-compressed. Stamps are rounded to 100 ns. Writes no truth.
 Result<void> write_rawlog(const SensorLog& log, const std::filesystem::path& path);
 
 // ROBOTLASER1 and ODOM lines with stamps of 9 decimals; gzip-compressed if the name ends in .gz.

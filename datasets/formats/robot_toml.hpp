@@ -13,7 +13,8 @@ namespace corridor::formats {
 // Every key, with as many digits as give back the same numbers.
 std::string robot_to_toml(const RobotModel& robot);
 
-// wheels.track_m, left_m_per_tick and right_m_per_tick are required. The Error lists every violation.
+// wheels.track_m, left_m_per_tick and right_m_per_tick are required. The Error lists every
+// violation.
 Result<RobotModel> robot_from_toml(std::string_view text, std::string_view where);
 
 // What a text says about the sensors, to be laid over another model.
@@ -23,6 +24,7 @@ struct RobotOverride {
   bool states_range_max = false;
   bool states_range_min = false;
   bool states_scan_duration = false;
+  bool states_imu_pose = false;  // any of imu.x_m, y_m, yaw_deg
 };
 
 // Nothing is required: keys that are not there keep the value of `base`.

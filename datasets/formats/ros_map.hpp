@@ -1,5 +1,6 @@
 // Occupancy grids as ROS map_server reads them: STEM.pgm (8-bit) and STEM.yaml.
-// Three values only: occupied 0, free 254, unknown 205. Hit counts and exact probabilities are lost.
+// Three values only: occupied 0, free 254, unknown 205. Hit counts and exact probabilities are
+// lost.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,8 @@ CellClass classify(const GridCell& cell);
 // the lower left corner of the lower left pixel. An Error for an empty map.
 Result<void> write_ros_map(const GridMap& map, const std::filesystem::path& stem);
 
-// Trinary mode. Hits are not in the file: an occupied cell gets one hit. A rotated origin is refused.
+// Trinary mode. Hits are not in the file: an occupied cell gets one hit. A rotated origin is
+// refused.
 Result<GridMap> read_ros_map(const std::filesystem::path& yaml_path);
 
 }  // namespace corridor::formats

@@ -10,9 +10,9 @@
 
 namespace corridor::formats {
 
-// Lines that start with '#' and empty lines are skipped. The first line that breaks a rule is an Error
-// with file:line: field count, number syntax, non-finite value, stamp not later than the one before,
-// quaternion not of unit length (within 1e-3), roll or pitch beyond 1e-6 rad.
+// Lines that start with '#' and empty lines are skipped. The first line that breaks a rule is an
+// Error with file:line: field count, number syntax, non-finite value, stamp not later than the one
+// before, quaternion not of unit length (within 1e-3), roll or pitch beyond 1e-6 rad.
 Result<Trajectory> read_tum(const std::filesystem::path& path);
 
 // Covariances are not written.

@@ -1,0 +1,164 @@
+#include "datasets/formats/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "datasets/formats/robot_toml.hpp"
+
+namespace corridor::formats {
+namespace {
+
+// Poses that differ by less are the same mounting, printed with few digits.
+constexpr double kSamePose_m = 1e-3;
+constexpr double kSamePose_rad = 2e-3;
+// A limit kept as a 32-bit float is the same limit.
+constexpr double kSameRange_ratio = 1e-6;
+
+bool is_same_pose(const Pose2& a, const Pose2& b) {
+  const Pose2::Tangent difference = a.minus(b);
+  return difference.head<2>().norm() < kSamePose_m && std::abs(difference.z()) < kSamePose_rad;
+}
+
+std::string pose_text(const Pose2& pose) {
+  return fmt::format("({:.4f} m, {:.4f} m, {:.4f} rad)", pose.x_m(), pose.y_m(), pose.theta_rad());
+}
+
+template <class Function>
+void for_each_scan(ParsedLog& log, Function function) {
+  for (SensorEvent& event : log.events) {
+    if (auto* scan = std::get_if<LaserScan>(&event)) function(*scan);
+  }
+}
+
+const LaserScan* first_scan(const ParsedLog& log) {
+  for (const SensorEvent& event : log.events) {
+    if (const auto* scan = std::get_if<LaserScan>(&event)) return scan;
+  }
+  return nullptr;
+}
+
+// The log's own model, or the caller's; `states` tells what was said explicitly.
+Result<RobotOverride> model_of_log(const ParsedLog& log, const CalibrationSources& sources) {
+  if (log.robot_toml) {
+    const std::string where = sources.file + ": robot model in the leading comment";
+    if (auto complete = robot_from_toml(*log.robot_toml, where); !complete) {
+      return tl::make_unexpected(complete.error());
+    }
+    return override_robot(RobotModel{}, *log.robot_toml, where);
+  }
+  RobotOverride stated;
+  if (sources.caller) {
+    stated.robot = *sources.caller;
+    stated.states_lidar_pose = stated.states_range_max = stated.states_imu_pose = true;
+  }
+  return stated;
+}
+
+// The scans say where their beams point; CARMEN's FLASER lines do not and have the identity.
+void reconcile_lidar_pose(ParsedLog& log, const RobotOverride& model, bool scans_state_pose,
+                          RobotModel& robot, std::vector<std::string>& notes) {
+  const Pose2 T_scans = first_scan(log)->T_base_lidar;
+  if (!scans_state_pose) {
+    for_each_scan(log, [&](LaserScan& scan) { scan.T_base_lidar = robot.lidar.T_base_lidar; });
+    return;
+  }
+  if (model.states_lidar_pose && !is_same_pose(T_scans, robot.lidar.T_base_lidar)) {
+    notes.push_back(
+        fmt::format("the robot model places the LiDAR at {}, the scans at {}: the scans' is used",
+                    pose_text(robot.lidar.T_base_lidar), pose_text(T_scans)));
+  }
+  robot.lidar.T_base_lidar = T_scans;
+}
+
+void reconcile_range_max(ParsedLog& log, const RobotOverride& model, RobotModel& robot,
+                         std::vector<std::string>& notes) {
+  const double scans_m = first_scan(log)->range_max_m;
+  const double model_m = robot.lidar.range_max_m;
+  if (model.states_range_max && std::abs(scans_m - model_m) <= kSameRange_ratio * model_m) {
+    for_each_scan(log, [&](LaserScan& scan) {
+      if (scan.range_max_m == scans_m) scan.range_max_m = model_m;
+    });
+    return;
+  }
+  if (model.states_range_max) {
+    notes.push_back(
+        fmt::format("the robot model's LiDAR reaches {} m, the scans' {} m: the scans' is used",
+                    model_m, scans_m));
+  }
+  robot.lidar.range_max_m = scans_m;
+}
+
+// A sidecar may shorten the sensor's reach: longer beams become beams without return.
+void apply_sidecar_range(ParsedLog& log, double range_max_m, std::vector<std::string>& notes) {
+  std::size_t num_cut = 0;
+  for_each_scan(log, [&](LaserScan& scan) {
+    scan.range_max_m = range_max_m;
+    for (std::size_t i = 0; i < scan.num_beams(); ++i) {
+      if (scan.is_valid[i] != 0 && scan.ranges_m[i] > range_max_m) {
+        scan.is_valid[i] = 0;
+        ++num_cut;
+      }
+    }
+  });
+  notes.push_back(
+      fmt::format("{} beams beyond the sidecar's {} m taken as no return", num_cut, range_max_m));
+}
+
+void apply_sidecar_pose(ParsedLog& log, const Pose2& T_base_lidar,
+                        std::vector<std::string>& notes) {
+  const Pose2 T_scans = first_scan(log)->T_base_lidar;
+  for_each_scan(log, [&](LaserScan& scan) { scan.T_base_lidar = T_base_lidar; });
+  if (!is_same_pose(T_scans, T_base_lidar)) {
+    notes.push_back(fmt::format("LiDAR placed at {} by the sidecar, at {} by the log",
+                                pose_text(T_base_lidar), pose_text(T_scans)));
+  }
+}
+
+Result<void> apply_sidecar(ParsedLog& log, const CalibrationSources& sources, RobotModel& robot,
+                           std::vector<std::string>& notes) {
+  const auto stated = override_robot(robot, *sources.sidecar_toml, sources.sidecar_file);
+  if (!stated) return tl::make_unexpected(stated.error());
+  const double log_range_max_m = robot.lidar.range_max_m;
+  robot = stated->robot;
+  notes.push_back("calibration from " + sources.sidecar_file);
+  if (first_scan(log) == nullptr) return {};
+  if (stated->states_lidar_pose) apply_sidecar_pose(log, robot.lidar.T_base_lidar, notes);
+  if (stated->states_range_max && robot.lidar.range_max_m != log_range_max_m) {
+    apply_sidecar_range(log, robot.lidar.range_max_m, notes);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
+                             std::vector<std::string>& notes) {
+  auto model = model_of_log(log, sources);
+  if (!model) return tl::make_unexpected(model.error());
+  RobotModel robot = model->robot;
+  if (first_scan(log) != nullptr) {
+    reconcile_lidar_pose(log, *model, log.scans_state_pose, robot, notes);
+    reconcile_range_max(log, *model, robot, notes);
+  }
+  if (log.T_base_imu) {
+    if (model->states_imu_pose && !is_same_pose(*log.T_base_imu, robot.imu.T_base_imu)) {
+      notes.push_back(fmt::format(
+          "the robot model places the IMU at {}, the readings at {}: the readings' is used",
+          pose_text(robot.imu.T_base_imu), pose_text(*log.T_base_imu)));
+    }
+    robot.imu.T_base_imu = *log.T_base_imu;
+  }
+  if (sources.sidecar_toml) {
+    if (auto applied = apply_sidecar(log, sources, robot, notes); !applied) {
+      return tl::make_unexpected(applied.error());
+    }
+  }
+  for_each_scan(log, [&](LaserScan& scan) {
+    scan.range_min_m = robot.lidar.range_min_m;
+    scan.duration_s = robot.lidar.scan_duration_s;
+  });
+  return robot;
+}
+
+}  // namespace corridor::formats

@@ -1,0 +1,36 @@
+// CARMEN text logs: FLASER, ROBOTLASER1, ODOM. Internal to this folder; log_io.hpp is the door.
+//   FLASER n r_1..r_n  x y theta  odom_x odom_y odom_theta  ipc_stamp host logger_stamp
+//   ROBOTLASER1 laser_type start_angle fov angular_res max_range accuracy remission_mode n r_1..r_n
+//     num_remissions e_1..  laser(3) robot(3)  tv rv forward_safety side_safety turn_axis  stamp
+//     host logger_stamp
+//   ODOM x y theta tv rv accel  stamp host logger_stamp
+// Other messages of the CARMEN vocabulary are skipped and counted; anything else is an error.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "datasets/formats/parsed_log.hpp"
+#include "slam/core/result.hpp"
+
+namespace corridor::formats {
+
+struct CarmenOptions {
+  // No return at or beyond this range. Without it ROBOTLASER1 lines use their own max_range.
+  std::optional<double> no_return_range_m;
+  // For FLASER lines, which state none.
+  double flaser_range_max_m = 0;
+};
+
+// FLASER beams cover 180 degrees: beam i at -90 deg + i * 180/n (n even: 180, 360) or
+// -90 deg + i * 180/(n - 1) (n odd: 181, 361). Each laser line gives the wheel pose first, then the
+// scan, with the line's first stamp; the pose is left out if the event before says the same.
+Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
+                               const CarmenOptions& options);
+
+// Scans as ROBOTLASER1, wheel samples as ODOM. A scan without a wheel sample of its stamp states
+// the pose interpolated between its neighbours.
+std::string carmen_text(const SensorLog& log);
+
+}  // namespace corridor::formats

@@ -1,0 +1,40 @@
+// What a log parser hands to read_log: events as they stand in the file, before order, calibration
+// and defects are looked at.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/core/sensor_log.hpp"
+
+namespace corridor::formats {
+
+// A beam count above this is a corrupted number, not a sensor; checked before anything is
+// allocated.
+inline constexpr std::size_t kMaxBeams = 65'536;
+
+struct ParsedLog {
+  std::vector<SensorEvent> events;
+  // Where in the file each event stands: a line number (CARMEN) or a byte offset (rawlog).
+  std::vector<std::uint64_t> origins;
+  std::string origin_unit;  // "line", "byte"
+  // The robot model that the log carries, and where.
+  std::optional<std::string> robot_toml;
+  // False for FLASER lines, which do not say where the LiDAR sits.
+  bool scans_state_pose = true;
+  // Where the log places its IMU.
+  std::optional<Pose2> T_base_imu;
+  // Counted repairs and things left out, by what was done: "beams of range 0 taken as no return"
+  // -> 12.
+  std::map<std::string, std::size_t> counts;
+
+  void add(SensorEvent event, std::uint64_t origin) {
+    events.push_back(std::move(event));
+    origins.push_back(origin);
+  }
+};
+
+}  // namespace corridor::formats
