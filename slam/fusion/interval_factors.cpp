@@ -1,0 +1,175 @@
+#include "slam/fusion/interval_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/graph/factors/motion_factors.hpp"
+#include "slam/graph/factors/pose_factors.hpp"
+
+namespace corridor::fusion {
+namespace {
+
+using graph::FactorPtr;
+
+// How much worse than nominal a sensor is taken that was excluded and came back as the least bad one.
+constexpr double kLeastBadFactor = 10;
+// The pose of key scan 0 defines the map frame.
+constexpr double kGaugeSigma = 1e-4;
+// A bias always walks a little, so that the factor stays defined for ideal sensors.
+constexpr double kMinBiasWalk = 1e-7;
+
+struct LidarChoice {
+  double sigma_factor = 1;             // on the constant noise of the paper's constraint
+  double badness = 0;                  // >= 1: degraded
+};
+
+// The paper's scalar test: too small a change of the view while the wheels moved.
+LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
+                              const FusionParams& params) {
+  LidarChoice choice;
+  const bool has_moved = interval.wheel_T_i_j &&
+                         interval.wheel_T_i_j->translation_m().norm() > 0.5 * params.key_distance_m;
+  if (!interval.range_difference_m || !has_moved) return choice;
+  const double threshold_m = params.degeneracy_floor_factor *
+                             range_difference_floor_m(robot.lidar.range_sigma_m);
+  choice.badness = threshold_m / std::max(*interval.range_difference_m, 1e-6);
+  choice.sigma_factor = adaptive_factor(choice.badness);
+  return choice;
+}
+
+FactorPtr lidar_factor(const Interval& interval, const Eigen::Matrix3d& sqrt_information) {
+  return std::make_unique<graph::RelativePose>(graph::pose_key(interval.anchor),
+                                               graph::pose_key(interval.j),
+                                               interval.match->T_map_base, sqrt_information);
+}
+
+FactorPtr scalar_lidar_factor(const Interval& interval, double sigma_factor,
+                              const FusionParams& params) {
+  const double translation = 1 / (params.lidar_sigma_m * sigma_factor);
+  const double rotation = 1 / (params.lidar_sigma_rad * sigma_factor);
+  return lidar_factor(interval, Eigen::Vector3d(translation, translation, rotation).asDiagonal());
+}
+
+FactorPtr wheel_factor(const Interval& interval, const WheelNoise& noise, double sigma_factor) {
+  Eigen::Vector3d weight(1 / (noise.translation_sigma_m * sigma_factor),
+                         1 / (noise.translation_sigma_m * sigma_factor),
+                         1 / (noise.rotation_sigma_rad * sigma_factor));
+  if (interval.imu) weight(2) = 0;  // the gyro knows the turn better than unequal wheels
+  return std::make_unique<graph::WheelMotion>(graph::pose_key(interval.i),
+                                              graph::pose_key(interval.j), graph::wheel_scale_key(0),
+                                              *interval.wheel_T_i_j, weight.asDiagonal());
+}
+
+void add_imu_factors(const Interval& interval, const ImuModel& imu,
+                     std::vector<FactorPtr>& factors) {
+  factors.push_back(
+      std::make_unique<graph::ImuMotion>(interval.i, interval.j, *interval.imu));
+  factors.push_back(std::make_unique<graph::BiasWalk>(
+      interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
+}
+
+SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotModel& robot,
+                 const FusionParams& params) {
+  if (!interval.wheel_T_i_j || !interval.imu) return {};
+  const Pose2& raw = *interval.wheel_T_i_j;
+  const double scale = 1 + interval.wheel_scale;
+  return test_slip(Pose2(scale * raw.x_m(), scale * raw.y_m(), raw.theta_rad()), noise,
+                   *interval.imu, interval.velocity_base_i_mps, interval.anchor_age_s, robot.imu,
+                   params);
+}
+
+// The published method: each sensor in or out as a whole.
+IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& noise,
+                                   const SlipTest& slip, const RobotModel& robot,
+                                   const FusionParams& params, std::vector<FactorPtr>& factors) {
+  const LidarChoice lidar = scalar_lidar_test(interval, robot, params);
+  IntervalVerdict verdict;
+  verdict.is_slip = slip.is_slip;
+  verdict.is_degenerate = lidar.badness >= 1;
+  verdict.are_wheels_used = interval.wheel_T_i_j && !verdict.is_slip;
+  verdict.is_lidar_used = interval.match && !verdict.is_degenerate;
+  double wheel_factor_on_sigma = adaptive_factor(slip.measure_over_threshold);
+  double lidar_factor_on_sigma = lidar.sigma_factor;
+  if (!verdict.are_wheels_used && !verdict.is_lidar_used) {
+    verdict.is_least_bad_kept = true;
+    verdict.are_wheels_used = interval.wheel_T_i_j && (!interval.match || slip.measure_over_threshold <
+                                                                              lidar.badness);
+    verdict.is_lidar_used = interval.match && !verdict.are_wheels_used;
+    wheel_factor_on_sigma *= kLeastBadFactor;
+    lidar_factor_on_sigma *= kLeastBadFactor;
+  }
+  if (verdict.are_wheels_used) {
+    factors.push_back(wheel_factor(interval, noise, wheel_factor_on_sigma));
+  }
+  if (verdict.is_lidar_used) {
+    factors.push_back(scalar_lidar_factor(interval, lidar_factor_on_sigma, params));
+  }
+  return verdict;
+}
+
+// Ours: the LiDAR enters along the directions it sees, the wheels unless a test says no.
+IntervalVerdict add_directional_factors(const Interval& interval, const WheelNoise& noise,
+                                        const SlipTest& slip, double wheel_noise_factor,
+                                        std::vector<FactorPtr>& factors) {
+  IntervalVerdict verdict;
+  verdict.is_slip = slip.is_slip || interval.is_wheel_jump;
+  const int num_observable = interval.match ? interval.match->num_observable : 0;
+  verdict.is_degenerate = num_observable < 3;
+  verdict.is_lidar_used = num_observable > 0;
+  verdict.are_wheels_used = interval.wheel_T_i_j && !verdict.is_slip;
+  double sigma_factor = wheel_noise_factor;
+  if (interval.wheel_T_i_j && !verdict.are_wheels_used && verdict.is_degenerate && !interval.imu) {
+    verdict.is_least_bad_kept = verdict.are_wheels_used = true;
+    sigma_factor *= kLeastBadFactor;
+  }
+  if (verdict.are_wheels_used) {
+    factors.push_back(wheel_factor(interval, noise, sigma_factor));
+  }
+  if (verdict.is_lidar_used) {
+    factors.push_back(
+        lidar_factor(interval, graph::square_root_information(interval.match->information)));
+  }
+  return verdict;
+}
+
+}  // namespace
+
+Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s) {
+  const double root_s = std::sqrt(duration_s);
+  const double gyro = std::max(imu.gyro_bias_walk_radps_sqrt_s * root_s, kMinBiasWalk);
+  const double accel = std::max(imu.accel_bias_walk_mps2_sqrt_s * root_s, kMinBiasWalk);
+  return {gyro, accel, accel};
+}
+
+IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel& robot,
+                                     double wheel_noise_factor, const FusionParams& params,
+                                     std::vector<FactorPtr>& factors) {
+  if (interval.imu) add_imu_factors(interval, robot.imu, factors);
+  const WheelNoise noise = interval.wheel_T_i_j
+                               ? nominal_wheel_noise(*interval.wheel_T_i_j, robot.wheels, params)
+                               : WheelNoise{};
+  const SlipTest slip = slip_of(interval, noise, robot, params);
+  return params.use_directional_degeneracy
+             ? add_directional_factors(interval, noise, slip, wheel_noise_factor, factors)
+             : add_scalar_factors(interval, noise, slip, robot, params, factors);
+}
+
+void add_first_factors(bool has_imu, const FusionParams& params,
+                       std::vector<FactorPtr>& factors) {
+  factors.push_back(std::make_unique<graph::PosePrior>(
+      graph::pose_key(0), Pose2(), Eigen::Matrix3d::Identity() / kGaugeSigma));
+  const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : 1e-6;
+  factors.push_back(std::make_unique<graph::VectorPrior>(graph::wheel_scale_key(0),
+                                                         Eigen::VectorXd::Zero(1),
+                                                         Eigen::VectorXd::Constant(1, scale_sigma)));
+  if (!has_imu) return;
+  factors.push_back(std::make_unique<graph::VectorPrior>(
+      graph::velocity_key(0), Eigen::VectorXd::Zero(2),
+      Eigen::VectorXd::Constant(2, params.initial_velocity_sigma_mps)));
+  factors.push_back(std::make_unique<graph::VectorPrior>(
+      graph::bias_key(0), Eigen::VectorXd::Zero(3),
+      Eigen::Vector3d(params.gyro_bias_sigma_radps, params.accel_bias_sigma_mps2,
+                      params.accel_bias_sigma_mps2)));
+}
+
+}  // namespace corridor::fusion

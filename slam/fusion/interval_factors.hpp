@@ -1,0 +1,52 @@
+// Chooses and weights the factors of one interval between key scans: the paper's reconfigurable graph.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "slam/fusion/fusion_params.hpp"
+#include "slam/fusion/key_scan.hpp"
+#include "slam/fusion/sensor_health.hpp"
+#include "slam/graph/factor.hpp"
+#include "slam/matching/observability.hpp"
+#include "slam/motion/imu_preintegration.hpp"
+
+namespace corridor::fusion {
+
+// What the sensors said between key scan i and key scan j = i + 1.
+struct Interval {
+  std::uint32_t i = 0, j = 0;
+  std::optional<Pose2> wheel_T_i_j;              // raw odometry
+  std::optional<motion::ImuDelta> imu;
+  std::optional<matching::ObservableMatch> match;  // of scan j in the frame of key scan `anchor`
+  std::uint32_t anchor = 0;
+  bool is_wheel_jump = false;                    // the LiDAR, seeing every direction, contradicts the wheels
+  std::optional<double> range_difference_m;      // of scans i and j, the paper's measure
+  double turn_i_j_rad = 0;
+  Eigen::Vector2d velocity_base_i_mps = Eigen::Vector2d::Zero();
+  double wheel_scale = 0;
+  double anchor_age_s = 0;
+};
+
+struct IntervalVerdict {
+  bool is_slip = false;
+  bool is_degenerate = false;
+  bool are_wheels_used = false;
+  bool is_lidar_used = false;
+  bool is_least_bad_kept = false;   // everything but the IMU was excluded, one was taken back
+};
+
+// Appends the interval's factors.
+IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel& robot,
+                                     double wheel_noise_factor, const FusionParams& params,
+                                     std::vector<graph::FactorPtr>& factors);
+
+// The factors that fix the gauge and start the biases, at key scan 0 and T_map_base = identity.
+void add_first_factors(bool has_imu, const FusionParams& params,
+                       std::vector<graph::FactorPtr>& factors);
+
+// Covariance of the change of the bias over a time, as a standard deviation per component.
+Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s);
+
+}  // namespace corridor::fusion

@@ -1,0 +1,19 @@
+// A scan that became a state of the factor graph. Its number is its index in the list of key scans.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "slam/core/scan.hpp"
+
+namespace corridor::fusion {
+
+struct KeyScan {
+  LaserScan scan;
+  std::vector<Eigen::Vector2d> points_base_m;      // deskewed, valid, within the used range
+  std::optional<Pose2> wheel_T_odom_base;          // raw odometry at the scan's stamp
+  double path_m = 0;                               // travelled by the estimate up to here
+};
+
+}  // namespace corridor::fusion

@@ -1,0 +1,30 @@
+// Follows the robot from scan to scan: predicts, matches against the active submap, and tells what the
+// LiDAR alone measured and how far that is from the wheels.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "slam/core/robot_model.hpp"
+#include "slam/fusion/fusion_params.hpp"
+#include "slam/fusion/motion_predictor.hpp"
+#include "slam/fusion/submap.hpp"
+#include "slam/matching/observability.hpp"
+
+namespace corridor::fusion {
+
+struct TrackedScan {
+  Pose2 T_submap_base;                               // scan and prediction together
+  std::optional<matching::ObservableMatch> match;    // the scan's own say; none if it did not fit
+  // Innovation of the LiDAR against the prediction over its covariance and degrees of freedom, where
+  // the scan sees every direction and the prediction came from wheels.
+  std::optional<double> normalized_square;
+};
+
+// T_submap_last: pose at the last scan.
+TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_base_m,
+                       const Pose2& T_submap_last, const Prediction& prediction,
+                       const RobotModel& robot, const FusionParams& params);
+
+}  // namespace corridor::fusion
