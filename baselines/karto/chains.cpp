@@ -49,13 +49,12 @@ std::vector<Chain> near_chains(const ScanLinks& links, ReferencePoints reference
   const auto linked = links.reachable(scan, [&](KeyScanId id) { return near.contains(id); });
   std::vector<Chain> runs;
   for (const KeyScanId id : linked) {
-    const bool is_covered = std::any_of(runs.begin(), runs.end(),
-                                        [id](const Chain& run) { return contains(run, id); });
+    const bool is_covered =
+        std::any_of(runs.begin(), runs.end(), [id](const Chain& run) { return contains(run, id); });
     if (!is_covered) runs.push_back(near.run_around(id));
   }
-  std::erase_if(runs, [&](const Chain& run) {
-    return contains(run, scan) || run.size() < min_scans;
-  });
+  std::erase_if(runs,
+                [&](const Chain& run) { return contains(run, scan) || run.size() < min_scans; });
   return runs;
 }
 

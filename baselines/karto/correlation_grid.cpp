@@ -12,16 +12,17 @@ int round_up(int value, int multiple) { return (value + multiple - 1) / multiple
 
 }  // namespace
 
-int GridSpec::side_cells() const {
+int GridSpec::inner_side_cells() const {
   return static_cast<int>(std::lround(window_m / resolution_m)) + 1 +
          2 * static_cast<int>(std::ceil(reach_m / resolution_m));
 }
 
 CorrelationGrid::CorrelationGrid(const GridSpec& spec)
     : resolution_m_(spec.resolution_m),
-      side_(spec.side_cells()),
-      stride_(round_up(side_, kRowAlignment_cells)),
       kernel_(spec.smear_m, spec.resolution_m),
+      border_(kernel_.half_width + 1),
+      side_(spec.inner_side_cells() + 2 * border_),
+      stride_(round_up(side_, kRowAlignment_cells)),
       bytes_(static_cast<std::size_t>(num_cells()) + 2 * kMargin, 0) {}
 
 void CorrelationGrid::reset(const Eigen::Vector2d& centre_map_m) {
@@ -39,27 +40,17 @@ void CorrelationGrid::add_points(std::span<const Eigen::Vector2d> points_map_m) 
   std::uint8_t* const grid = bytes_.data() + kMargin;
   for (const Eigen::Vector2d& point_m : points_map_m) {
     const Eigen::Vector2i cell = cell_of(point_m);
-    if (cell.x() < 0 || cell.y() < 0 || cell.x() >= side_ || cell.y() >= side_) continue;
+    const bool is_inner = (cell.array() >= border_).all() && (cell.array() < side_ - border_).all();
+    if (!is_inner) continue;
     const std::int32_t index = linear_index(cell);
     if (grid[index] == kOccupied) continue;
     stamped_.push_back(index);
-    stamp(cell);
+    stamp(index);
   }
 }
 
-void CorrelationGrid::stamp(const Eigen::Vector2i& cell) {
-  const int half = kernel_.half_width;
-  const bool is_inside = cell.x() >= half && cell.y() >= half && cell.x() + half < side_ &&
-                         cell.y() + half < side_;
-  if (is_inside) {
-    stamp_inside(linear_index(cell) - half * (stride_ + 1));
-  } else {
-    stamp_clipped(cell);
-  }
-}
-
-void CorrelationGrid::stamp_inside(std::int32_t first_index) {
-  std::uint8_t* row = bytes_.data() + kMargin + first_index;
+void CorrelationGrid::stamp(std::int32_t centre_index) {
+  std::uint8_t* row = bytes_.data() + kMargin + first_of_stamp(centre_index);
   const std::uint8_t* values = kernel_.values.data();
   for (int y = 0; y < kernel_.side; ++y, row += stride_, values += kernel_.stride) {
     for (int block = 0; block < kernel_.stride; block += SmearKernel::kBlock) {
@@ -70,27 +61,9 @@ void CorrelationGrid::stamp_inside(std::int32_t first_index) {
   }
 }
 
-void CorrelationGrid::stamp_clipped(const Eigen::Vector2i& cell) {
-  const int half = kernel_.half_width;
-  for (int dy = -half; dy <= half; ++dy) {
-    for (int dx = -half; dx <= half; ++dx) {
-      const Eigen::Vector2i there = cell + Eigen::Vector2i(dx, dy);
-      if ((there.array() < 0).any() || (there.array() >= side_).any()) continue;
-      std::uint8_t& value = bytes_[static_cast<std::size_t>(kMargin + linear_index(there))];
-      value = std::max(value, kernel_.at(dx, dy));
-    }
-  }
-}
-
-// Every byte a stamp may have touched lies within half_width rows and columns of its centre.
 void CorrelationGrid::erase(std::int32_t centre_index) {
-  const int half = kernel_.half_width;
-  for (int dy = -half; dy <= half; ++dy) {
-    const std::int64_t first = std::int64_t{centre_index} + std::int64_t{dy} * stride_ - half;
-    const std::int64_t begin = std::max<std::int64_t>(first, 0);
-    const std::int64_t end = std::min<std::int64_t>(first + kernel_.side, num_cells());
-    if (begin < end) std::fill(bytes_.begin() + kMargin + begin, bytes_.begin() + kMargin + end, 0);
-  }
+  std::uint8_t* row = bytes_.data() + kMargin + first_of_stamp(centre_index);
+  for (int y = 0; y < kernel_.side; ++y, row += stride_) std::fill_n(row, kernel_.side, 0);
 }
 
 }  // namespace corridor::karto

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,15 +18,13 @@ struct GridSpec {
   double reach_m = 12;      // longest beam
   double smear_m = 0.03;    // standard deviation of an end point
 
-  // round(window / resolution) + 1 + 2 * ceil(reach / resolution)
-  [[nodiscard]] int side_cells() const;
+  // Cells that may hold an end point: round(window / resolution) + 1 + 2 * ceil(reach / resolution).
+  [[nodiscard]] int inner_side_cells() const;
 };
 
-// Value of a linear index that stands for "no end point at all".
-inline constexpr std::int32_t kNoCell = std::numeric_limits<std::int32_t>::min();
-
 // Cells are addressed by linear index = column + row * stride(), and only the linear index is
-// range-checked by those who look up, as in the original: stride() is the side padded to 8.
+// range-checked by those who look up, as in the original: stride() is the side padded to 8. A border of
+// the kernel's half width + 1 around the inner cells takes the smear.
 class CorrelationGrid {
  public:
   explicit CorrelationGrid(const GridSpec& spec);
@@ -52,15 +49,18 @@ class CorrelationGrid {
   static constexpr int kMargin = 64;
 
  private:
-  void stamp(const Eigen::Vector2i& cell);
-  void stamp_inside(std::int32_t first_index);
-  void stamp_clipped(const Eigen::Vector2i& cell);
+  void stamp(std::int32_t centre_index);
   void erase(std::int32_t centre_index);
+  // The kernel's lower left cell; inside the grid for every inner centre.
+  [[nodiscard]] std::int32_t first_of_stamp(std::int32_t centre_index) const {
+    return centre_index - kernel_.half_width * (stride_ + 1);
+  }
 
   double resolution_m_;
+  SmearKernel kernel_;
+  int border_;
   int side_;
   int stride_;
-  SmearKernel kernel_;
   Eigen::Vector2d corner_map_m_ = Eigen::Vector2d::Zero();  // centre of cell (0, 0)
   std::vector<std::uint8_t> bytes_;
   std::vector<std::int32_t> stamped_;  // linear indices of the occupied cells, to erase only those

@@ -56,7 +56,8 @@ void CorrelativeMatcher::select_beams(const KeyScan& scan) {
       beams_sensor_m_.push_back(scan.beams_sensor_m()[i]);
     }
   }
-  full_response_ = static_cast<double>(std::max<std::size_t>(beams_sensor_m_.size(), 1)) * kOccupied;
+  full_response_ =
+      static_cast<double>(std::max<std::size_t>(beams_sensor_m_.size(), 1)) * kOccupied;
 }
 
 MatchResult CorrelativeMatcher::coarse_search(const Pose2& centre, bool use_penalty) {
@@ -104,8 +105,8 @@ MatchResult CorrelativeMatcher::refine(const MatchResult& coarse, bool use_penal
 ResponseTable CorrelativeMatcher::respond(const Pose2& centre, const Stage& stage,
                                           bool use_penalty) {
   ResponseTable table(stage.position_m, stage.heading_rad);
-  const Eigen::Vector2i first = grid_.cell_of(
-      centre.translation_m() + Eigen::Vector2d::Constant(stage.position_m.offset(0)));
+  const Eigen::Vector2i first =
+      grid_.cell_of(centre.translation_m() + Eigen::Vector2d::Constant(stage.position_m.offset(0)));
   const SweepWindow window{first.x(), first.y(), stage.step_cells, table.num_positions()};
   for (int heading = 0; heading < table.num_headings(); ++heading) {
     fill_beam_offsets(beams_sensor_m_, centre.theta_rad() + stage.heading_rad.offset(heading),

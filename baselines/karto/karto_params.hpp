@@ -38,9 +38,9 @@ struct KartoParams {
   double angle_variance_penalty_rad2 = 0.12184696791468343;  // (20 deg)^2
   double min_distance_penalty = 0.5;
   double min_angle_penalty = 0.9;
-  double coarse_angle_offset_rad = 0.3490658503988659;       // 20 deg
-  double coarse_angle_resolution_rad = 0.03490658503988659;  // 2 deg
-  double fine_angle_resolution_rad = 0.0034906585039886592;  // 0.2 deg
+  double coarse_angle_offset_rad = 0.349;       // 20 deg, rounded as shipped
+  double coarse_angle_resolution_rad = 0.0349;  // 2 deg, rounded as shipped
+  double fine_angle_resolution_rad = 0.00349;   // 0.2 deg, rounded as shipped
   bool use_response_expansion = false;
 
   // The published map.
@@ -113,7 +113,7 @@ struct KartoParams {
     v(ParamInfo{"map_resolution_m", "m", "cell of the published map", 0.005, 1}, p.map_resolution_m);
     v(ParamInfo{"map_min_passes", "1", "a cell is known when more beams passed or ended in it", 0, 1000}, p.map_min_passes);
     v(ParamInfo{"map_occupancy_threshold", "1", "occupied above this share of beams that ended", 0.001, 0.999}, p.map_occupancy_threshold);
-    v(ParamInfo{"count_no_returns", "", "beams without return lower the response; false: left out"}, p.count_no_returns);
+    v(ParamInfo{"count_no_returns", "", "beams without return lower the response and stand at their raw range; false: left out"}, p.count_no_returns);
     v(ParamInfo{"wrap_rows", "", "beams leaving the grid sideways read another row; false: read nothing"}, p.wrap_rows);
     v(ParamInfo{"use_plain_mean_heading", "", "headings of several matches are averaged unweighted; false: by their information"}, p.use_plain_mean_heading);
   }

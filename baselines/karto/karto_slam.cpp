@@ -75,7 +75,8 @@ class KartoSlam::Impl {
                   "wheel samples");
     }
     if (mapper_) mapper_->publish_poses();
-    for (const TrajectoryPose& pose : final_poses()) CORRIDOR_ENSURE(estimate.trajectory.append(pose));
+    for (const TrajectoryPose& pose : final_poses())
+      CORRIDOR_ENSURE(estimate.trajectory.append(pose));
     estimate.map = mapper_ ? build_karto_map(mapper_->scans(), T_map_start_->inverse(),
                                              range_threshold_m_, params_)
                            : GridMap{};
@@ -118,7 +119,9 @@ class KartoSlam::Impl {
     {
       const auto in_stage = clock_.enter(Stage::kPreprocess);
       if (!mapper_) range_threshold_m_ = range_threshold_of(params_, robot_, scan);
-      candidate.emplace(scan, *T_odom_base_, range_threshold_m_, params_.use_barycentre);
+      candidate.emplace(
+          scan, *T_odom_base_,
+          KeyScanOptions{range_threshold_m_, params_.use_barycentre, params_.count_no_returns});
     }
     if (!candidate->is_usable()) {
       ++num_unusable_;
@@ -168,8 +171,8 @@ class KartoSlam::Impl {
     std::size_t num_passed = 0;  // key scans at or before the record
     for (std::size_t i = 0; i < records_.size(); ++i) {
       if (records_[i].key_scan) ++num_passed;
-      poses.push_back({records_[i].stamp,
-                       T_map_start_->between(final_pose(i, key_records, num_passed)), {}});
+      poses.push_back(
+          {records_[i].stamp, T_map_start_->between(final_pose(i, key_records, num_passed)), {}});
     }
     return poses;
   }
@@ -185,8 +188,8 @@ class KartoSlam::Impl {
     if (num_passed == key_records.size()) return anchor(id).carried_to(T_odom_base);
     const Timestamp earlier = records_[key_records[id]].stamp;
     const Timestamp later = records_[key_records[id + 1]].stamp;
-    const double ratio = seconds_between(earlier, records_[record].stamp) /
-                         seconds_between(earlier, later);
+    const double ratio =
+        seconds_between(earlier, records_[record].stamp) / seconds_between(earlier, later);
     return pose_between(anchor(id), anchor(id + 1), ratio, T_odom_base);
   }
 

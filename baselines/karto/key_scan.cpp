@@ -5,12 +5,11 @@
 
 namespace corridor::karto {
 
-KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, double range_threshold_m,
-                 bool use_barycentre)
+KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, const KeyScanOptions& options)
     : stamp_(scan.stamp),
       T_base_sensor_(scan.T_base_lidar),
       T_odom_sensor_(T_odom_base * scan.T_base_lidar),
-      use_barycentre_(use_barycentre) {
+      options_(options) {
   const std::size_t num_beams = scan.num_beams();
   beams_sensor_m_.resize(num_beams);
   is_in_range_.resize(num_beams);
@@ -20,7 +19,8 @@ KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, double range_t
     const double angle_rad = scan.angle_rad(i);
     const bool is_finite = std::isfinite(range_m);
     is_return_[i] = is_finite && scan.is_valid[i] != 0;
-    is_in_range_[i] = is_return_[i] && range_m <= range_threshold_m;
+    is_in_range_[i] = is_return_[i] && range_m <= options.range_threshold_m;
+    if (is_in_range_[i]) ++num_in_range_;
     beams_sensor_m_[i] =
         is_finite ? Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad))
                   : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -35,13 +35,13 @@ void KeyScan::set_T_map_sensor(const Pose2& T_map_sensor) {
   points_map_m_.clear();
   Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < beams_sensor_m_.size(); ++i) {
-    if (!is_in_range_[i]) continue;
+    const bool is_kept = options_.keep_no_returns && beams_sensor_m_[i].allFinite();
+    if (!is_in_range_[i] && !is_kept) continue;
     points_map_m_.push_back(R_map_sensor * beams_sensor_m_[i] + t_map_sensor_m);
-    sum_m += points_map_m_.back();
+    if (is_in_range_[i]) sum_m += points_map_m_.back();
   }
-  const bool has_barycentre = use_barycentre_ && !points_map_m_.empty();
-  reference_map_m_ = has_barycentre
-                         ? Eigen::Vector2d(sum_m / static_cast<double>(points_map_m_.size()))
+  reference_map_m_ = options_.use_barycentre && is_usable()
+                         ? Eigen::Vector2d(sum_m / static_cast<double>(num_in_range_))
                          : t_map_sensor_m;
 }
 

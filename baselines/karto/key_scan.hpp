@@ -12,12 +12,19 @@ namespace corridor::karto {
 
 using KeyScanId = std::uint32_t;
 
+struct KeyScanOptions {
+  double range_threshold_m = 12;
+  bool use_barycentre = true;
+  // Beams without return have an end point at their raw range: they split surfaces where the valid
+  // points are selected. As shipped.
+  bool keep_no_returns = true;
+};
+
 // Beams with a valid range up to the threshold are "in range"; the others still have an end point if
-// their raw range is finite, because the response counts them [Konolige2010, as shipped].
+// their raw range is finite, because the response counts them.
 class KeyScan {
  public:
-  KeyScan(const LaserScan& scan, const Pose2& T_odom_base, double range_threshold_m,
-          bool use_barycentre);
+  KeyScan(const LaserScan& scan, const Pose2& T_odom_base, const KeyScanOptions& options);
 
   // Moves the scan: recomputes its end points and reference point in the map.
   void set_T_map_sensor(const Pose2& T_map_sensor);
@@ -37,11 +44,12 @@ class KeyScan {
   [[nodiscard]] const std::vector<std::uint8_t>& is_in_range() const { return is_in_range_; }
   // 1 where the sensor saw a surface, even beyond the range threshold.
   [[nodiscard]] const std::vector<std::uint8_t>& is_return() const { return is_return_; }
-  // End points of the beams in range, in order of the beams, in the map frame.
+  // End points of the beams in range, and of the others if kept, in order of the beams, map frame.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& points_map_m() const { return points_map_m_; }
   // False if no beam is in range: there is nothing to match or to map.
-  [[nodiscard]] bool is_usable() const { return !points_map_m_.empty(); }
-  // Where the scan "is" in every test of distance: the mean of its end points, or the sensor.
+  [[nodiscard]] bool is_usable() const { return num_in_range_ > 0; }
+  // Where the scan "is" in every test of distance: the mean of its end points in range, or
+  // the sensor.
   [[nodiscard]] const Eigen::Vector2d& reference_map_m() const { return reference_map_m_; }
 
  private:
@@ -49,7 +57,8 @@ class KeyScan {
   Pose2 T_base_sensor_;
   Pose2 T_odom_sensor_;
   Pose2 T_map_sensor_;
-  bool use_barycentre_;
+  KeyScanOptions options_;
+  std::size_t num_in_range_ = 0;
   std::vector<Eigen::Vector2d> beams_sensor_m_;
   std::vector<std::uint8_t> is_in_range_;
   std::vector<std::uint8_t> is_return_;

@@ -30,7 +30,8 @@ Pose2 mean_pose(std::span<const PoseWithCovariance> estimates, HeadingMean headi
     const Eigen::Matrix3d information = information_of(covariance_map);
     const double heading_rad = T_map_sensor.theta_rad();
     information_sum += information;
-    weighted_sum += information * Eigen::Vector3d(T_map_sensor.x_m(), T_map_sensor.y_m(), heading_rad);
+    weighted_sum +=
+        information * Eigen::Vector3d(T_map_sensor.x_m(), T_map_sensor.y_m(), heading_rad);
     const double weight = heading_mean == HeadingMean::kPlain ? 1.0 : information(2, 2);
     cos_sum += weight * std::cos(heading_rad);
     sin_sum += weight * std::sin(heading_rad);

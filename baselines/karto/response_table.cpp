@@ -6,9 +6,9 @@
 namespace corridor::karto {
 namespace {
 
-constexpr double kTolerance = 1e-6;           // two responses are equal within it
-constexpr double kResponseMargin = 0.1;       // poses this close to the best shape the covariance
-constexpr double kVarianceFloor_steps2 = 0.1; // of one step of the search, squared
+constexpr double kTolerance = 1e-6;            // two responses are equal within it
+constexpr double kResponseMargin = 0.1;        // poses this close to the best shape the covariance
+constexpr double kVarianceFloor_steps2 = 0.1;  // of one step of the search, squared
 constexpr double kUnknownVariance_m2 = 500;
 
 double best_over_headings(const ResponseTable& table, int y, int x) {
@@ -46,7 +46,8 @@ SearchOffset mean_best_offset(const ResponseTable& table, double best_response) 
     for (int y = 0; y < table.num_positions(); ++y) {
       for (int x = 0; x < table.num_positions(); ++x) {
         if (table.at(heading, y, x) < best_response - kTolerance) continue;
-        position_sum_m += Eigen::Vector2d(table.position_m().offset(x), table.position_m().offset(y));
+        position_sum_m +=
+            Eigen::Vector2d(table.position_m().offset(x), table.position_m().offset(y));
         cos_sum += std::cos(heading_rad);
         sin_sum += std::sin(heading_rad);
         ++count;
@@ -86,8 +87,7 @@ double heading_variance(const std::vector<double>& responses, const SearchAxis& 
   double weight_sum = 0;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     if (responses[i] < best_response - kResponseMargin) continue;
-    const double difference_rad =
-        heading_rad.offset(static_cast<int>(i)) - best_heading_rad;
+    const double difference_rad = heading_rad.offset(static_cast<int>(i)) - best_heading_rad;
     weighted_rad2 += responses[i] * difference_rad * difference_rad;
     weight_sum += responses[i];
   }

@@ -16,8 +16,8 @@ bool ScanLinks::link(KeyScanId a, KeyScanId b) {
   return true;
 }
 
-std::vector<KeyScanId> ScanLinks::reachable(
-    KeyScanId start, const std::function<bool(KeyScanId)>& is_near) const {
+std::vector<KeyScanId> ScanLinks::reachable(KeyScanId start,
+                                            const std::function<bool(KeyScanId)>& is_near) const {
   std::vector<KeyScanId> visited{start};
   std::vector<bool> is_seen(num_scans(), false);
   is_seen[start] = true;

@@ -32,12 +32,15 @@ IndexSpan clip(std::int64_t first, int step, int count, std::int64_t low, std::i
 class RowSweep {
  public:
   RowSweep(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule)
-      : grid_(grid), window_(window), edge_rule_(edge_rule),
+      : grid_(grid),
+        window_(window),
+        edge_rule_(edge_rule),
         lanes_(static_cast<std::size_t>(window.count)) {}
 
   void add(std::span<const BeamOffset> offsets, int row, std::uint32_t* sums) {
     const std::int64_t base =
-        window_.first_column + std::int64_t{window_.first_row + row * window_.step_cells} * grid_.stride();
+        window_.first_column +
+        std::int64_t{window_.first_row + row * window_.step_cells} * grid_.stride();
     for (std::size_t done = 0; done < offsets.size(); done += kMaxBeamsPerBlock) {
       std::fill(lanes_.begin(), lanes_.end(), std::uint16_t{0});
       const std::size_t num = std::min(kMaxBeamsPerBlock, offsets.size() - done);
@@ -92,8 +95,7 @@ class RowSweep {
 }  // namespace
 
 void sweep_window(const CorrelationGrid& grid, std::span<const BeamOffset> offsets,
-                  const SweepWindow& window, EdgeRule edge_rule,
-                  std::vector<std::uint32_t>& sums) {
+                  const SweepWindow& window, EdgeRule edge_rule, std::vector<std::uint32_t>& sums) {
   const auto count = static_cast<std::size_t>(window.count);
   sums.assign(count * count, 0);
   RowSweep sweep(grid, window, edge_rule);
