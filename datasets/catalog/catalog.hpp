@@ -38,8 +38,8 @@ struct CatalogEntry {
   std::string format;           // "rawlog", "carmen"; others are listed, but not readable yet
   std::vector<DataFile> files;  // the first is the log
   TruthKind truth = TruthKind::kNone;
-  std::string licence;          // as its publisher states it
-  std::string source;           // where the public gets it
+  std::string licence;  // as its publisher states it
+  std::string source;   // where the public gets it
   formats::StampOrder order = formats::StampOrder::kStamp;
   std::optional<double> no_return_range_m;
   std::optional<RobotModel> robot;  // calibration for logs that carry none
@@ -52,7 +52,8 @@ struct Catalog {
   [[nodiscard]] const CatalogEntry* find(std::string_view name) const;
 };
 
-// The catalog.toml of the source tree the program was built from; $CORRIDOR_BENCH_CATALOG overrides.
+// The catalog.toml of the source tree the program was built from; $CORRIDOR_BENCH_CATALOG
+// overrides.
 std::filesystem::path default_catalog_path();
 
 // The Error lists every violation: unknown keys, missing keys, names given twice, bad checksums.
@@ -100,7 +101,7 @@ std::string_view to_text(FileStatus status);
 struct VerifiedFile {
   std::filesystem::path path;  // where it was found, else as catalogued
   FileStatus status = FileStatus::kMissing;
-  std::string sha256;          // found; empty if missing
+  std::string sha256;  // found; empty if missing
   std::string sha256_expected;
 };
 

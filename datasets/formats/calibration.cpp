@@ -47,11 +47,8 @@ Result<RobotOverride> model_of_log(const ParsedLog& log, const CalibrationSource
     }
     return override_robot(RobotModel{}, *log.robot_toml, where);
   }
-  RobotOverride stated;
-  if (sources.caller) {
-    stated.robot = *sources.caller;
-    stated.states_lidar_pose = stated.states_range_max = stated.states_imu_pose = true;
-  }
+  RobotOverride stated;  // the caller's model contradicts nothing: it only fills what is not there
+  stated.robot = sources.caller.value_or(RobotModel{});
   return stated;
 }
 

@@ -1,0 +1,111 @@
+#include "datasets/catalog/catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "datasets/catalog/find_folder.hpp"
+#include "datasets/catalog/sha256.hpp"
+
+namespace corridor::catalog {
+namespace {
+
+// Where Debian's mrpt-common puts its recorded logs.
+constexpr const char* kMrptDatasets = "/usr/share/mrpt/datasets";
+constexpr const char* kCacheFolder = "corridor-bench";
+
+// Empty variables count as unset, as the XDG base directory specification asks.
+std::optional<std::filesystem::path> path_from_environment(const char* variable) {
+  const char* value = std::getenv(variable);
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  return std::filesystem::path(value);
+}
+
+std::optional<std::filesystem::path> cache_folder() {
+  if (const auto cache = path_from_environment("XDG_CACHE_HOME")) return *cache / kCacheFolder;
+  if (const auto home = path_from_environment("HOME")) return *home / ".cache" / kCacheFolder;
+  return std::nullopt;
+}
+
+}  // namespace
+
+DataDirs standard_data_dirs(const std::optional<std::filesystem::path>& data_dir) {
+  DataDirs dirs;
+  if (data_dir) dirs.folders.push_back(*data_dir);
+  if (const auto folder = path_from_environment("CORRIDOR_BENCH_DATA")) {
+    dirs.folders.push_back(*folder);
+  }
+  if (const auto folder = cache_folder()) dirs.folders.push_back(*folder);
+  dirs.folders.emplace_back(kMrptDatasets);
+  return dirs;
+}
+
+std::string_view to_text(TruthKind kind) {
+  if (kind == TruthKind::kTum) return "tum";
+  return kind == TruthKind::kRelations ? "relations" : "none";
+}
+
+std::string_view to_text(FileStatus status) {
+  if (status == FileStatus::kMatches) return "matches";
+  return status == FileStatus::kDiffers ? "differs" : "missing";
+}
+
+bool CatalogEntry::is_readable() const { return format == "carmen" || format == "rawlog"; }
+
+const CatalogEntry* Catalog::find(std::string_view name) const {
+  for (const CatalogEntry& entry : entries) {
+    if (entry.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+std::filesystem::path default_catalog_path() {
+  return path_from_environment("CORRIDOR_BENCH_CATALOG").value_or(CORRIDOR_CATALOG_FILE);
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+std::optional<std::filesystem::path> find_folder(const CatalogEntry& entry, const DataDirs& dirs) {
+  for (const std::filesystem::path& folder : dirs.folders) {
+    if (is_file(folder / entry.files.front().path)) return folder;
+  }
+  return std::nullopt;
+}
+
+std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& dirs) {
+  std::vector<DatasetRow> rows;
+  for (const CatalogEntry& entry : catalog.entries) {
+    const auto folder = find_folder(entry, dirs);
+    const auto path = folder ? *folder / entry.files.front().path : std::filesystem::path();
+    rows.push_back({entry.name, entry.title, folder.has_value(), entry.is_readable(), path,
+                    entry.format, entry.truth, entry.licence, entry.source});
+  }
+  return rows;
+}
+
+Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::string_view name,
+                                                 const DataDirs& dirs) {
+  const CatalogEntry* entry = catalog.find(name);
+  if (entry == nullptr) {
+    return fail(ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name));
+  }
+  const auto folder = find_folder(*entry, dirs);
+  std::vector<VerifiedFile> verified;
+  for (const DataFile& file : entry->files) {
+    VerifiedFile row{file.path, FileStatus::kMissing, "", file.sha256};
+    if (folder && is_file(*folder / file.path)) {
+      auto sha256 = sha256_of_file(*folder / file.path);
+      if (!sha256) return tl::make_unexpected(sha256.error());
+      row.path = *folder / file.path;
+      row.status = *sha256 == file.sha256 ? FileStatus::kMatches : FileStatus::kDiffers;
+      row.sha256 = std::move(*sha256);
+    }
+    verified.push_back(std::move(row));
+  }
+  return verified;
+}
+
+}  // namespace corridor::catalog

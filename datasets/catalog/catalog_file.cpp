@@ -1,0 +1,185 @@
+// Reading catalog.toml: every key checked, every violation listed.
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "datasets/catalog/catalog.hpp"
+#include "datasets/formats/file_bytes.hpp"
+#include "datasets/formats/robot_toml.hpp"
+
+namespace corridor::catalog {
+namespace {
+
+constexpr std::size_t kSha256Digits = 64;
+constexpr std::array<std::string_view, 10> kKeys = {"name",       "title",  "format",
+                                                    "files",      "truth",  "order",
+                                                    "licence",    "source", "no_return_range_m",
+                                                    "calibration"};
+
+class EntryReader {
+ public:
+  EntryReader(const toml::table& table, const std::string& where, std::vector<std::string>& wrong)
+      : table_(table), where_(where), wrong_(wrong) {}
+
+  CatalogEntry read() {
+    for (const auto& [key, node] : table_) {
+      if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) {
+        complain(std::string(key.str()), "unknown key");
+      }
+    }
+    entry_.name = text("name");
+    entry_.title = text("title");
+    entry_.format = text("format");
+    entry_.licence = text("licence");
+    entry_.source = text("source");
+    take_files();
+    take_choices();
+    take_no_return_range();
+    take_calibration();
+    return std::move(entry_);
+  }
+
+ private:
+  void complain(const std::string& key, const std::string& what) {
+    wrong_.push_back(fmt::format("line {}: {}: {}", table_.source().begin.line, key, what));
+  }
+
+  std::string text(std::string_view key) {
+    const auto value = table_[key].value<std::string>();
+    if (!value || value->empty()) complain(std::string(key), "missing or not a text");
+    return value.value_or("");
+  }
+
+  void take_files() {
+    const toml::array* files = table_["files"].as_array();
+    if (files == nullptr || files->empty()) {
+      complain("files", "missing, empty or not a list");
+      return;
+    }
+    for (const toml::node& node : *files) {
+      const toml::table* file = node.as_table();
+      const auto path = file ? (*file)["path"].value<std::string>() : std::nullopt;
+      const auto sha256 = file ? (*file)["sha256"].value<std::string>() : std::nullopt;
+      if (!path || !sha256 || file->size() != 2) {
+        complain("files", "expected { path = \"...\", sha256 = \"...\" }");
+        continue;
+      }
+      if (sha256->size() != kSha256Digits ||
+          sha256->find_first_not_of("0123456789abcdef") != std::string::npos) {
+        complain("files", "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
+      }
+      const std::filesystem::path relative = *path;
+      if (relative.is_absolute() || *relative.begin() == "..") {
+        complain("files", *path + " does not lie in a data folder");
+      }
+      entry_.files.push_back({relative, *sha256});
+    }
+  }
+
+  void take_choices() {
+    const std::string truth = text("truth");
+    if (truth == "tum") {
+      entry_.truth = TruthKind::kTum;
+    } else if (truth == "relations") {
+      entry_.truth = TruthKind::kRelations;
+    } else if (truth != "none") {
+      complain("truth", "expected tum, relations or none");
+    }
+    const std::string order = text("order");
+    if (order == "file") {
+      entry_.order = formats::StampOrder::kFile;
+    } else if (order != "stamp") {
+      complain("order", "expected stamp or file");
+    }
+  }
+
+  void take_no_return_range() {
+    const auto node = table_["no_return_range_m"];
+    if (!node) return;
+    entry_.no_return_range_m = node.value<double>();
+    if (!entry_.no_return_range_m || !(*entry_.no_return_range_m > 0)) {
+      complain("no_return_range_m", "expected a number > 0");
+    }
+  }
+
+  void take_calibration() {
+    const auto node = table_["calibration"];
+    if (!node) return;
+    if (!node.is_table()) {
+      complain("calibration", "not a table");
+      return;
+    }
+    std::ostringstream toml_text;
+    toml_text << toml::default_formatter(*node.as_table());
+    auto stated = formats::override_robot(
+        RobotModel{}, toml_text.str(), fmt::format("{}: calibration of {}", where_, entry_.name));
+    if (!stated) {
+      wrong_.push_back(stated.error().to_line());
+    } else {
+      entry_.robot = std::move(stated->robot);
+    }
+  }
+
+  const toml::table& table_;
+  const std::string& where_;
+  std::vector<std::string>& wrong_;
+  CatalogEntry entry_;
+};
+
+void refuse_repeated_names(const Catalog& catalog, std::vector<std::string>& wrong) {
+  for (const CatalogEntry& entry : catalog.entries) {
+    if (catalog.find(entry.name) != &entry) {
+      wrong.push_back(fmt::format("name {} is given twice", entry.name));
+    }
+  }
+}
+
+Catalog take_catalog(const toml::table& document, const std::string& where,
+                     std::vector<std::string>& wrong) {
+  Catalog catalog;
+  for (const auto& [key, node] : document) {
+    if (key.str() != "dataset") wrong.push_back(fmt::format("{}: unknown key", key.str()));
+  }
+  const toml::array* datasets = document["dataset"].as_array();
+  if (datasets == nullptr) {
+    wrong.emplace_back("dataset: missing or not a list of tables");
+    return catalog;
+  }
+  for (const toml::node& node : *datasets) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      wrong.emplace_back("dataset: not a table");
+      continue;
+    }
+    catalog.entries.push_back(EntryReader(*table, where, wrong).read());
+  }
+  refuse_repeated_names(catalog, wrong);
+  return catalog;
+}
+
+}  // namespace
+
+Result<Catalog> read_catalog(const std::filesystem::path& path) {
+  const auto text = formats::read_file_bytes(path);
+  if (!text) return tl::make_unexpected(text.error());
+  toml::table document;
+  try {
+    document = toml::parse(std::string_view(*text));
+  } catch (const toml::parse_error& error) {
+    return fail(ErrorCode::kMalformed, std::string(error.description()),
+                fmt::format("{}:{}", path.string(), error.source().begin.line), "TOML");
+  }
+  std::vector<std::string> wrong;
+  Catalog catalog = take_catalog(document, path.string(), wrong);
+  if (!wrong.empty()) {
+    return fail(ErrorCode::kInvalid, fmt::format("{}", fmt::join(wrong, "; ")), path.string(),
+                "a valid catalogue");
+  }
+  return catalog;
+}
+
+}  // namespace corridor::catalog
