@@ -1,0 +1,82 @@
+// Which world and which cases the figures show.
+#include "reports/figures/report_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/statistics/quantiles.hpp"
+#include "reports/metrics.hpp"
+
+namespace corridor::figures {
+namespace {
+
+using reports::Case;
+using reports::Cases;
+using reports::Series;
+using reports::World;
+
+// Karto is the rival whose failure is the paper's subject; where it was not run, the series whose
+// values cover the most worlds stands in.
+std::optional<Series> reference_series(const Cases& cases, const std::string& dataset) {
+  const auto metric = reports::position_error();
+  std::optional<Series> chosen;
+  std::size_t most = 0;
+  for (const Series& series : cases.series()) {
+    const std::size_t num = tables::world_values(cases, dataset, series, metric).size();
+    if (num > 0 && series.system == "karto") return series;
+    if (num > most) {
+      most = num;
+      chosen = series;
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::optional<Representative> representative_world(const Cases& cases, const std::string& dataset) {
+  const auto series = reference_series(cases, dataset);
+  if (!series) return std::nullopt;
+  const auto values = tables::world_values(cases, dataset, *series, reports::position_error());
+  std::vector<double> sorted;
+  for (const auto& [world, value] : values) sorted.push_back(value);
+  const double middle = *statistics::percentile(sorted, 50);
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](const auto& item) { return item.second == middle; });
+  const World world = found->first;
+  const std::string name = world.data_seed
+                               ? fmt::format("World {} of {}", *world.data_seed, dataset)
+                               : fmt::format("{}, system seed {}", dataset, world.system_seed);
+  return Representative{
+      world, fmt::format("{}, chosen because {}'s position error there, {:.3f} m, is the median of "
+                         "its {} {}.",
+                         name, cases.label(*series), middle, values.size(),
+                         values.size() == 1 ? "world" : "worlds")};
+}
+
+const Case* case_in_world(const Cases& cases, const World& world, const Series& series) {
+  for (const Case* entry : cases.of(world.dataset, series)) {
+    if (reports::world_of(entry->result) == world) return entry;
+  }
+  return nullptr;
+}
+
+std::vector<Figure> report_figures(const Cases& cases, std::vector<std::string>& problems) {
+  std::vector<Figure> figures;
+  const auto add = [&](std::optional<Figure> figure) {
+    if (figure) figures.push_back(std::move(*figure));
+  };
+  for (const std::string& dataset : cases.datasets()) {
+    add(environment_figure(cases, dataset, problems));
+    add(trajectory_figure(cases, dataset, problems));
+    add(map_figure(cases, dataset, problems));
+    add(error_figure(cases, dataset));
+    add(stage_figure(cases, dataset));
+  }
+  std::sort(problems.begin(), problems.end());
+  problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
+  return figures;
+}
+
+}  // namespace corridor::figures

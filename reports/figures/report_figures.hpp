@@ -1,0 +1,49 @@
+// The figures of a report, each made from all cases and the files they left.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/cases.hpp"
+#include "reports/figures/svg.hpp"
+
+namespace corridor::figures {
+
+struct Figure {
+  Svg svg;
+  std::string caption;
+};
+
+// The world in which one rival has its median position error, and why: what single-world figures
+// show.
+struct Representative {
+  reports::World world;
+  std::string reason;
+};
+// nullopt for a data set without true poses.
+std::optional<Representative> representative_world(const reports::Cases& cases,
+                                                   const std::string& dataset);
+// The case of a series in a world: the one with the smallest system seed; nullptr without one.
+const reports::Case* case_in_world(const reports::Cases& cases, const reports::World& world,
+                                   const reports::Series& series);
+
+// Key distances a, b, c and alpha in the drawing of the corridor, as in the paper's figure 3 b.
+std::optional<Figure> environment_figure(const reports::Cases& cases, const std::string& dataset,
+                                         std::vector<std::string>& problems);
+// All final trajectories against the truth in the representative world.
+std::optional<Figure> trajectory_figure(const reports::Cases& cases, const std::string& dataset,
+                                        std::vector<std::string>& problems);
+// Maps side by side: simulated data with the true walls over the maps of GMapping, Karto and the
+// fusion systems; recorded data with every system's map.
+std::optional<Figure> map_figure(const reports::Cases& cases, const std::string& dataset,
+                                 std::vector<std::string>& problems);
+// Every world's position and angle error per system on logarithmic axes.
+std::optional<Figure> error_figure(const reports::Cases& cases, const std::string& dataset);
+// Share of each stage in the time of the steps.
+std::optional<Figure> stage_figure(const reports::Cases& cases, const std::string& dataset);
+
+// All of the above for every data set, in the order of the page.
+std::vector<Figure> report_figures(const reports::Cases& cases, std::vector<std::string>& problems);
+
+}  // namespace corridor::figures

@@ -1,0 +1,127 @@
+#include "reports/figures/style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace corridor::figures {
+namespace {
+
+constexpr SeriesStyle kTruth{"truth", "#111111", "#f2f2f2", "", Marker::kCircle};
+
+struct NamedStyle {
+  std::string_view system;
+  SeriesStyle style;
+};
+
+constexpr std::array kSystems = {
+    NamedStyle{"dead-reckoning", {"dead-reckoning", "#777777", "#a3a3a3", "2 4", Marker::kDiamond}},
+    NamedStyle{"dead-reckoning-gyro",
+               {"dead-reckoning-gyro", "#8a6d3b", "#c9a66b", "2 2", Marker::kDiamond}},
+    NamedStyle{"gmapping", {"gmapping", "#D55E00", "#ff8a3d", "9 3", Marker::kTriangle}},
+    NamedStyle{"karto", {"karto", "#0072B2", "#5aaee6", "6 3", Marker::kSquare}},
+    NamedStyle{"mrpt-icp", {"mrpt-icp", "#E69F00", "#f2b632", "8 3 2 3", Marker::kSquare}},
+    NamedStyle{"mrpt-rbpf", {"mrpt-rbpf", "#6a51a3", "#ab98e0", "8 3 2 3 2 3", Marker::kTriangle}},
+    NamedStyle{"fusion-paper", {"fusion-paper", "#CC79A7", "#e79cc6", "4 2", Marker::kCircle}},
+    NamedStyle{"fusion", {"fusion", "#009E73", "#2ccf9f", "", Marker::kCircle}},
+};
+
+constexpr std::array kSpares = {
+    SeriesStyle{"spare-0", "#882255", "#d977a8", "5 2 1 2", Marker::kDiamond},
+    SeriesStyle{"spare-1", "#117733", "#5cbd7c", "5 2 1 2 1 2", Marker::kSquare},
+    SeriesStyle{"spare-2", "#332288", "#9487e0", "3 1", Marker::kTriangle},
+    SeriesStyle{"spare-3", "#999933", "#cfcf62", "7 2", Marker::kCircle},
+};
+
+// [Tol2021] muted, which has nine colours and grey: as many as there are stages.
+constexpr std::array kStages = {
+    NamedStyle{"preprocess", {"stage-preprocess", "#88CCEE", "#88CCEE", "", {}}},
+    NamedStyle{"predict", {"stage-predict", "#44AA99", "#44AA99", "", {}}},
+    NamedStyle{"match", {"stage-match", "#332288", "#6f5fd0", "", {}}},
+    NamedStyle{"map_update", {"stage-map-update", "#DDCC77", "#DDCC77", "", {}}},
+    NamedStyle{"graph", {"stage-graph", "#117733", "#2c9c55", "", {}}},
+    NamedStyle{"optimise", {"stage-optimise", "#CC6677", "#CC6677", "", {}}},
+    NamedStyle{"loop_search", {"stage-loop-search", "#882255", "#b8457f", "", {}}},
+    NamedStyle{"resample", {"stage-resample", "#999933", "#999933", "", {}}},
+    NamedStyle{"finish", {"stage-finish", "#AA4499", "#c967b8", "", {}}},
+    NamedStyle{"other", {"stage-other", "#AAAAAA", "#888888", "", {}}},
+};
+
+template <std::size_t kCount>
+const SeriesStyle* find_style(const std::array<NamedStyle, kCount>& styles, std::string_view name) {
+  const auto* found = std::find_if(styles.begin(), styles.end(),
+                                   [&](const NamedStyle& entry) { return entry.system == name; });
+  return found == styles.end() ? nullptr : &found->style;
+}
+
+constexpr std::string_view kLightCss =
+    ".figure text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;font-size:13px;fill:#1a1a1a}"
+    ".figure .small{font-size:11px}.figure .title{font-size:14px;font-weight:bold}"
+    ".figure .muted{fill:#595959}"
+    ".figure .paper{fill:#ffffff}.figure .panel{fill:#f4f4f2;stroke:#c9c9c4;stroke-width:1}"
+    ".figure .axis{stroke:#595959;stroke-width:1;fill:none}"
+    ".figure .grid{stroke:#dcdcd8;stroke-width:1;fill:none}"
+    ".figure .wall{stroke:#9a9a94;stroke-width:2;fill:none}"
+    ".figure .wall-over{stroke:#c8102e;stroke-width:1.2;fill:none}"
+    ".figure .dimension{stroke:#0072B2;stroke-width:1.4;fill:none}"
+    ".figure .dimension-head{fill:#0072B2}"
+    ".figure .interval{stroke:#1a1a1a;stroke-width:2;fill:none}"
+    ".figure .halo{stroke:#ffffff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}"
+    ".figure .path{fill:none;stroke-width:2;stroke-linejoin:round}"
+    ".figure .dot{fill-opacity:0.75}.figure image{image-rendering:pixelated}\n";
+
+constexpr std::string_view kDarkCss =
+    ".figure text{fill:#ececec}.figure .muted{fill:#b4b4b4}.figure .paper{fill:#15171b}"
+    ".figure .panel{fill:#1f2227;stroke:#454a52}.figure .axis{stroke:#b4b4b4}"
+    ".figure .grid{stroke:#343840}.figure .wall{stroke:#7c828c}.figure .wall-over{stroke:#ff6b7d}"
+    ".figure .dimension{stroke:#5aaee6}.figure .dimension-head{fill:#5aaee6}"
+    ".figure .interval{stroke:#ececec}.figure .halo{stroke:#15171b}";
+
+template <class Visit>
+void for_each_style(Visit&& visit) {
+  visit(kTruth);
+  for (const NamedStyle& entry : kSystems) visit(entry.style);
+  for (const SeriesStyle& style : kSpares) visit(style);
+  for (const NamedStyle& entry : kStages) visit(entry.style);
+}
+
+}  // namespace
+
+const SeriesStyle& series_style(std::string_view system) {
+  if (const SeriesStyle* found = find_style(kSystems, system)) return *found;
+  std::size_t sum = 0;
+  for (const char character : system) sum += static_cast<unsigned char>(character);
+  return kSpares[sum % kSpares.size()];
+}
+
+const SeriesStyle& truth_style() { return kTruth; }
+
+const SeriesStyle& stage_style(std::string_view stage) {
+  const SeriesStyle* found = find_style(kStages, stage);
+  return found != nullptr ? *found : kStages.back().style;
+}
+
+std::string figure_css() {
+  std::string light(kLightCss);
+  std::string dark(kDarkCss);
+  for_each_style([&](const SeriesStyle& style) {
+    light += fmt::format(".figure .line-{}{{stroke:{}{}}}.figure .fill-{}{{fill:{}}}\n", style.name,
+                         style.light,
+                         style.dash.empty() ? "" : fmt::format(";stroke-dasharray:{}", style.dash),
+                         style.name, style.light);
+    dark += fmt::format(".figure .line-{}{{stroke:{}}}.figure .fill-{}{{fill:{}}}", style.name,
+                        style.dark, style.name, style.dark);
+  });
+  return fmt::format("{}@media screen and (prefers-color-scheme:dark){{{}}}\n", light, dark);
+}
+
+double text_width_px(std::string_view text, double font_size_px) {
+  const auto num_characters = std::count_if(text.begin(), text.end(), [](char character) {
+    return (static_cast<unsigned char>(character) & 0xC0U) != 0x80U;
+  });
+  return static_cast<double>(num_characters) * kCharacterWidth_ratio * font_size_px;
+}
+
+}  // namespace corridor::figures

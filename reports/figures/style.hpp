@@ -1,0 +1,41 @@
+// How every figure looks: one palette, one type size, one set of class names. The colours are those
+// of [Okabe2008], which people with any kind of colour blindness can tell apart; dash patterns and
+// marker shapes say the same once more for grey prints.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace corridor::figures {
+
+// Font size of everything but titles [px of a figure].
+inline constexpr double kFontSize_px = 13;
+// Average advance of one character of the sans-serif fonts in use, in font sizes; errs on the wide
+// side.
+inline constexpr double kCharacterWidth_ratio = 0.6;
+
+enum class Marker { kCircle, kSquare, kTriangle, kDiamond };
+
+// How one series is drawn in every figure.
+struct SeriesStyle {
+  std::string_view name;   // of the SVG classes "line-NAME" and "fill-NAME"
+  std::string_view light;  // colour on white
+  std::string_view dark;   // colour on a dark page
+  std::string_view dash;   // stroke-dasharray, "" for a full line
+  Marker marker = Marker::kCircle;
+};
+
+// By name of the system; a name that is not in the table gets one of the spare styles, always the
+// same for the same name.
+const SeriesStyle& series_style(std::string_view system);
+const SeriesStyle& truth_style();
+// Colours of parts of a bar: one per stage of slam/core/stage_clock.hpp.
+const SeriesStyle& stage_style(std::string_view stage);
+
+// The style sheet of all figures, for light and dark: stands in each SVG file and once in the page.
+std::string figure_css();
+
+// Estimated width of a text [px].
+double text_width_px(std::string_view text, double font_size_px = kFontSize_px);
+
+}  // namespace corridor::figures

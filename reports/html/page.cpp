@@ -1,0 +1,254 @@
+#include "reports/html/page.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <kainjow/mustache.hpp>
+#include <map>
+#include <set>
+
+#include "reports/escape.hpp"
+#include "reports/html/page_parts.hpp"
+#include "reports/html/verdict.hpp"
+#include "reports/tables/writers.hpp"
+
+namespace corridor::html {
+namespace {
+
+namespace fs = std::filesystem;
+using kainjow::mustache::data;
+using reports::Case;
+using reports::Cases;
+
+// Longer tables are folded.
+constexpr std::size_t kMaxOpenRows = 24;
+
+// Relative to the page where the file system allows it.
+std::string link_to(const fs::path& target, const fs::path& out) {
+  std::error_code error;
+  const fs::path relative = fs::relative(target, out, error);
+  return reports::url_from_path((error || relative.empty() ? target : relative).string());
+}
+
+data text_item(const std::string& text) {
+  return data(kainjow::mustache::object{{"text", reports::valid_utf8(text)}});
+}
+
+template <class Items>
+data text_list(const Items& items) {
+  data list(data::type::list);
+  for (const std::string& item : items) list.push_back(text_item(item));
+  return list;
+}
+
+std::string file_links(const std::string& folder, const std::string& stem,
+                       std::initializer_list<const char*> suffixes) {
+  std::string links;
+  for (const char* suffix : suffixes) {
+    const std::string name = fmt::format("{}.{}", reports::file_name_from(stem), suffix);
+    links += fmt::format("{}<a href=\"{}/{}\">{}</a>", links.empty() ? "" : " ", folder,
+                         reports::url_from_path(name), suffix);
+  }
+  return fmt::format("<span class=\"note\">As files: {}</span>", links);
+}
+
+data table_list(const std::vector<tables::Table>& all,
+                std::string (*to_html)(const tables::Table&)) {
+  data list(data::type::list);
+  for (const tables::Table& table : all) {
+    data item;
+    item.set("caption", table.caption);
+    item.set("html", to_html(table));
+    item.set("links", file_links("tables", table.id, {"csv", "md", "tex"}));
+    item.set("is_long", table.rows.size() > kMaxOpenRows);
+    item.set("num_rows", fmt::format("{}", table.rows.size()));
+    list.push_back(item);
+  }
+  return list;
+}
+
+data figure_list(const std::vector<figures::Figure>& all) {
+  data list(data::type::list);
+  for (const figures::Figure& figure : all) {
+    data item;
+    item.set("title", reports::valid_utf8(figure.svg.title()));
+    item.set("svg", figure.svg.element());
+    item.set("caption", reports::valid_utf8(figure.caption));
+    item.set("links", file_links("figures", figure.svg.id(), {"svg", "png"}));
+    list.push_back(item);
+  }
+  return list;
+}
+
+data machine_list(const Cases& cases) {
+  std::set<std::string> unknown;
+  for (const Case& entry : cases.all()) unknown.insert(entry.result.machine_id);
+  data list(data::type::list);
+  const auto add = [&](const std::string& id, const std::string& text) {
+    data item;
+    item.set("id", reports::valid_utf8(id));
+    item.set("text", reports::valid_utf8(text));
+    list.push_back(item);
+  };
+  for (const results::Machine& machine : cases.machines()) {
+    unknown.erase(machine.machine_id);
+    add(machine.machine_id,
+        fmt::format("{}, {} cores, {} MiB, Linux {}, {}", machine.cpu_model, machine.num_cores,
+                    machine.memory_mib, machine.kernel, machine.compiler));
+  }
+  for (const std::string& id : unknown) add(id, "not described in the store");
+  return list;
+}
+
+data parameter_list(const Cases& cases) {
+  std::map<std::pair<std::string, std::string>, const Case*> by_hash;
+  for (const Case& entry : cases.all()) {
+    by_hash.emplace(
+        std::make_pair(cases.label(reports::series_of(entry.result)), entry.result.parameters_hash),
+        &entry);
+  }
+  data list(data::type::list);
+  for (const auto& [key, entry] : by_hash) {
+    data rows(data::type::list);
+    for (const auto& [name, value] : entry->result.parameters) {
+      data row;
+      row.set("name", reports::valid_utf8(name));
+      row.set("value", reports::valid_utf8(value));
+      rows.push_back(row);
+    }
+    data item;
+    item.set("label", reports::valid_utf8(key.first));
+    item.set("hash", reports::valid_utf8(key.second));
+    item.set("rows", rows);
+    list.push_back(item);
+  }
+  return list;
+}
+
+data case_list(const Cases& cases, const fs::path& out) {
+  data list(data::type::list);
+  for (const Case& entry : cases.all()) {
+    data item;
+    item.set("url", link_to(entry.dir / "result.json", out));
+    item.set("id", reports::valid_utf8(entry.result.case_id));
+    item.set("dataset", reports::valid_utf8(entry.result.dataset));
+    item.set("label", reports::valid_utf8(cases.label(reports::series_of(entry.result))));
+    item.set("status", results::to_text(entry.result.status));
+    list.push_back(item);
+  }
+  return list;
+}
+
+data store_list(const Cases& cases, const fs::path& out) {
+  data list(data::type::list);
+  for (const fs::path& run_dir : cases.run_dirs()) {
+    data item;
+    item.set("url", link_to(run_dir / "results.sqlite", out));
+    item.set("text", reports::valid_utf8((run_dir / "results.sqlite").string()));
+    list.push_back(item);
+  }
+  return list;
+}
+
+std::set<std::string> suites(const Cases& cases) {
+  std::set<std::string> names;
+  for (const Case& entry : cases.all()) names.insert(entry.result.suite);
+  names.erase("");
+  return names;
+}
+
+// A name in single quotes as a POSIX shell reads it.
+std::string shell_quoted(const std::string& text) {
+  if (!text.empty() && reports::file_name_from(text) == text) return text;
+  std::string quoted = "'";
+  for (const char character : text) {
+    if (character == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += character;
+    }
+  }
+  quoted += '\'';
+  return quoted;
+}
+
+std::string commands(const Cases& cases) {
+  std::string text = "bench/reproduce.sh\n\n# or, with the program built:\n";
+  for (const std::string& suite : suites(cases)) {
+    text += fmt::format("corridor-bench run {0} --out {0}\n", shell_quoted(suite));
+  }
+  text += "corridor-bench report";
+  for (const std::string& suite : suites(cases)) text += fmt::format(" {}", shell_quoted(suite));
+  return text + " --out report\n";
+}
+
+std::string seed_text(const Cases& cases) {
+  std::set<std::uint64_t> data_seeds;
+  std::set<std::uint64_t> system_seeds;
+  for (const Case& entry : cases.all()) {
+    if (entry.result.data_seed) data_seeds.insert(*entry.result.data_seed);
+    system_seeds.insert(entry.result.system_seed);
+  }
+  return fmt::format(
+      "data {}; systems {}",
+      data_seeds.empty() ? "none (recorded)" : fmt::format("{}", fmt::join(data_seeds, ", ")),
+      fmt::join(system_seeds, ", "));
+}
+
+std::set<std::string> revisions(const Cases& cases) {
+  std::set<std::string> names;
+  for (const Case& entry : cases.all()) names.insert(entry.result.git_revision);
+  return names;
+}
+
+std::string subtitle(const Cases& cases) {
+  return fmt::format("{} cases: {} systems on {} data sets", cases.all().size(),
+                     cases.series().size(), cases.datasets().size());
+}
+
+}  // namespace
+
+std::string csp_hash(const std::string& content) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  EVP_Digest(content.data(), content.size(), digest.data(), &length, EVP_sha256(), nullptr);
+  return "sha256-" +
+         reports::base64({reinterpret_cast<const char*>(digest.data()), std::size_t{length}});
+}
+
+Result<std::string> render_page(const PageContent& content) {
+  const Cases& cases = *content.cases;
+  const std::string style = std::string(kPageCss) + figures::figure_css();
+  data page;
+  page.set("title", reports::valid_utf8(fmt::format("Corridor Bench report{}{}",
+                                                    suites(cases).empty() ? "" : ": ",
+                                                    fmt::join(suites(cases), ", "))));
+  page.set("subtitle", subtitle(cases));
+  page.set("style", style);
+  page.set("style_hash", csp_hash(style));
+  data sentences(data::type::list);
+  for (const std::string& sentence : verdicts(cases)) sentences.push_back(text_item(sentence));
+  page.set("verdicts", sentences);
+  page.set("tables", table_list(*content.tables, tables::to_html));
+  page.set("has_figures", !content.figures->empty());
+  page.set("figures", figure_list(*content.figures));
+  page.set("revisions", text_list(revisions(cases)));
+  page.set("machines", machine_list(cases));
+  page.set("seeds", seed_text(cases));
+  page.set("parameters", parameter_list(cases));
+  page.set("commands", reports::valid_utf8(commands(cases)));
+  page.set("stores", store_list(cases, content.out));
+  page.set("num_cases", fmt::format("{}", cases.all().size()));
+  page.set("case_files", case_list(cases, content.out));
+  page.set("has_problems", !content.problems->empty());
+  page.set("problems", text_list(*content.problems));
+  kainjow::mustache::mustache shell{std::string(kPageTemplate)};
+  if (!shell.is_valid()) {
+    return fail(ErrorCode::kInternal, "the page template is broken: " + shell.error_message());
+  }
+  return shell.render(page);
+}
+
+}  // namespace corridor::html

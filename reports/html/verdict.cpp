@@ -1,0 +1,195 @@
+#include "reports/html/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/statistics/quantiles.hpp"
+#include "reports/metrics.hpp"
+#include "reports/tables/summary.hpp"
+#include "reports/tables/writers.hpp"
+
+namespace corridor::html {
+namespace {
+
+using reports::Cases;
+using reports::Series;
+using tables::Estimate;
+using tables::Metric;
+using tables::WorldValues;
+
+struct Entry {
+  Series series;
+  std::string label;
+  WorldValues values;
+  Estimate estimate;
+};
+
+std::vector<Entry> entries_by_median(const Cases& cases, const std::string& dataset,
+                                     const Metric& metric) {
+  std::vector<Entry> entries;
+  for (const Series& series : cases.series()) {
+    const tables::Cell cell = tables::summarise(cases, dataset, series, metric);
+    const auto* estimate = std::get_if<Estimate>(&cell);
+    if (estimate == nullptr) continue;
+    entries.push_back({series, cases.label(series),
+                       tables::world_values(cases, dataset, series, metric), *estimate});
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& left, const Entry& right) {
+    return left.estimate.median < right.estimate.median;
+  });
+  return entries;
+}
+
+std::string with_unit(const Estimate& estimate, const std::string& unit) {
+  const std::string interval = tables::interval_text(estimate);
+  return fmt::format("{} {}{}{}", tables::number_text(estimate.median, estimate.decimals), unit,
+                     interval.empty() ? "" : " ", interval);
+}
+
+std::string most_accurate(const std::string& dataset, const Metric& metric,
+                          const std::vector<Entry>& entries) {
+  std::vector<WorldValues> values;
+  for (const Entry& entry : entries) values.push_back(entry.values);
+  const Entry& first = entries.front();
+  const std::string figures =
+      fmt::format("{} over {} of {} worlds", with_unit(first.estimate, metric.unit),
+                  first.estimate.n, first.estimate.of);
+  if (entries.size() == 1) {
+    return fmt::format("{}: only {} has a {}: {}.", dataset, first.label, metric.name, figures);
+  }
+  if (tables::clearly_smallest(values) == std::size_t{0}) {
+    return fmt::format(
+        "{}: {} has the smallest {} of {} systems, and its lead over each of them is "
+        "shown to be real: median {}.",
+        dataset, first.label, metric.name, entries.size(), figures);
+  }
+  return fmt::format(
+      "{}: {} has the smallest median {}, {}, but its lead over every one of the "
+      "other {} systems is not shown to be real.",
+      dataset, first.label, metric.name, figures, entries.size() - 1);
+}
+
+std::string factor_sentence(const std::string& dataset, const Metric& metric, const Entry& system,
+                            const Entry& rival) {
+  const auto ratio = tables::compare_worlds(rival.values, system.values);
+  const std::string pair =
+      fmt::format("{}: {}'s {} against {}'s", dataset, system.label, metric.name, rival.label);
+  if (!ratio) {
+    return fmt::format("{}: fewer than {} common worlds, so no comparison is made.", pair,
+                       tables::kMinValuesForInterval);
+  }
+  const std::string numbers = fmt::format("factor {:.3f} [{:.3f}, {:.3f}] over {} worlds",
+                                          ratio->value, ratio->low, ratio->high, ratio->num_values);
+  if (ratio->high < 1) return fmt::format("{}: smaller, {}.", pair, numbers);
+  if (ratio->low > 1) return fmt::format("{}: larger, {}.", pair, numbers);
+  return fmt::format("{}: no difference is shown, {}.", pair, numbers);
+}
+
+bool is_fusion(const Series& series) {
+  return series.system == "fusion" || series.system == "fusion-paper";
+}
+
+bool is_rival(const Series& series) {
+  return series.system == "karto" || series.system == "gmapping";
+}
+
+void append_trajectory_verdicts(const Cases& cases, const std::string& dataset,
+                                std::vector<std::string>& sentences) {
+  for (const Metric& metric : {reports::position_error(), reports::angle_error()}) {
+    const std::vector<Entry> entries = entries_by_median(cases, dataset, metric);
+    if (entries.empty()) continue;
+    sentences.push_back(most_accurate(dataset, metric, entries));
+    for (const Entry& system : entries) {
+      for (const Entry& rival : entries) {
+        if (is_fusion(system.series) && is_rival(rival.series)) {
+          sentences.push_back(factor_sentence(dataset, metric, system, rival));
+        }
+      }
+    }
+  }
+}
+
+// How long the corridor's arms become on the map: the subject of the paper's table 1.
+void append_map_verdicts(const Cases& cases, const std::string& dataset,
+                         std::vector<std::string>& sentences) {
+  using reports::KeyVariable;
+  using reports::MapKind;
+  for (const Series& series : cases.series()) {
+    if (!is_fusion(series) && !is_rival(series)) continue;
+    std::string parts;
+    for (const KeyVariable variable : {KeyVariable::kA, KeyVariable::kB}) {
+      Metric error = reports::key_measured(variable, MapKind::kOwn);
+      error.value = [measured = error.value,
+                     truth = reports::key_true(variable, MapKind::kOwn).value](
+                        const results::RunResult& result) -> std::optional<double> {
+        const auto m = measured(result);
+        const auto t = truth(result);
+        if (!m || !t) return std::nullopt;
+        return *m - *t;
+      };
+      const tables::Cell cell = tables::summarise(cases, dataset, series, error, "not measurable");
+      const auto* estimate = std::get_if<Estimate>(&cell);
+      if (estimate == nullptr && std::get<tables::Missing>(cell).reason == "not run") continue;
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : "; ", reports::name_of(variable),
+                           estimate == nullptr
+                               ? tables::plain_text(cell)
+                               : fmt::format("{} by {} ({} of {} worlds)",
+                                             estimate->median < 0 ? "too short" : "too long",
+                                             with_unit(*estimate, "m"), estimate->n, estimate->of));
+    }
+    const auto has_truth = [&](const reports::Case* entry) {
+      return entry->result.own_map.key_distances.has_value();
+    };
+    const auto all = cases.of(dataset, series);
+    if (!parts.empty() && std::any_of(all.begin(), all.end(), has_truth)) {
+      sentences.push_back(
+          fmt::format("{}: on {}'s own map, {}.", dataset, cases.label(series), parts));
+    }
+  }
+}
+
+void append_relation_verdict(const Cases& cases, const std::string& dataset,
+                             std::vector<std::string>& sentences) {
+  const Metric metric = reports::relation_translation_mean();
+  const std::vector<Entry> entries = entries_by_median(cases, dataset, metric);
+  if (entries.empty()) return;
+  const Entry& first = entries.front();
+  const Entry& last = entries.back();
+  sentences.push_back(fmt::format("{}: mean relation error from {} ({}) to {} ({}), {} systems.",
+                                  dataset, with_unit(first.estimate, "m"), first.label,
+                                  with_unit(last.estimate, "m"), last.label, entries.size()));
+}
+
+std::string outcome_sentence(const Cases& cases) {
+  std::map<std::string, int> counts;
+  int num_not_ok = 0;
+  for (const reports::Case& entry : cases.all()) {
+    if (entry.result.status == results::CaseStatus::kOk) continue;
+    ++num_not_ok;
+    ++counts[results::to_text(entry.result.status)];
+  }
+  if (num_not_ok == 0) return fmt::format("All {} cases ended with status ok.", cases.all().size());
+  std::string parts;
+  for (const auto& [status, count] : counts) {
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, status);
+  }
+  return fmt::format("{} of {} cases did not end with status ok: {}.", num_not_ok,
+                     cases.all().size(), parts);
+}
+
+}  // namespace
+
+std::vector<std::string> verdicts(const Cases& cases) {
+  std::vector<std::string> sentences;
+  for (const std::string& dataset : cases.datasets()) {
+    append_trajectory_verdicts(cases, dataset, sentences);
+    append_map_verdicts(cases, dataset, sentences);
+    append_relation_verdict(cases, dataset, sentences);
+  }
+  sentences.push_back(outcome_sentence(cases));
+  return sentences;
+}
+
+}  // namespace corridor::html

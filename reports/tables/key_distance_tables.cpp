@@ -1,0 +1,180 @@
+// Table 1 of the paper and the errors behind it.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "reports/metrics.hpp"
+#include "reports/published.hpp"
+#include "reports/tables/report_tables.hpp"
+#include "reports/tables/summary.hpp"
+
+namespace corridor::tables {
+namespace {
+
+using reports::Cases;
+using reports::KeyVariable;
+using reports::kKeyVariables;
+using reports::MapKind;
+using reports::Series;
+
+constexpr std::array kMapKinds = {MapKind::kOwn, MapKind::kRendered};
+constexpr std::array<std::string_view, 4> kPaperSystems = {"karto", "fusion-paper", "fusion",
+                                                           "gmapping"};
+// A world whose true values differ by less from the paper's is the paper's world.
+constexpr double kSameWorld = 1e-6;
+
+std::string map_name(MapKind kind) { return kind == MapKind::kOwn ? "own" : "common mapper"; }
+
+std::vector<Series> table1_series(const Cases& cases) {
+  std::vector<Series> chosen;
+  for (const std::string_view system : kPaperSystems) {
+    for (const Series& series : cases.series()) {
+      if (series.system == system) chosen.push_back(series);
+    }
+  }
+  return chosen;
+}
+
+std::set<double> true_values(const Cases& cases, const std::string& dataset, KeyVariable variable) {
+  std::set<double> values;
+  for (const reports::Case* entry : cases.of(dataset)) {
+    for (const MapKind kind : kMapKinds) {
+      if (const auto value = reports::key_true(variable, kind).value(entry->result)) {
+        values.insert(*value);
+      }
+    }
+  }
+  return values;
+}
+
+bool is_paper_world(const Cases& cases, const std::string& dataset) {
+  for (const auto& published : reports::kPaperTable1) {
+    const std::set<double> values = true_values(cases, dataset, published.variable);
+    if (values.empty() || std::abs(*values.begin() - published.true_value) > kSameWorld ||
+        std::abs(*values.rbegin() - published.true_value) > kSameWorld) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Cell true_cell(const std::set<double>& values, int decimals) {
+  if (values.size() == 1) return Number{*values.begin(), decimals};
+  return fmt::format("{:.{}f} to {:.{}f}", *values.begin(), decimals, *values.rbegin(), decimals);
+}
+
+// Marks the best of the estimates in `cells`, from `first` on, by the errors behind them.
+void mark_best(std::vector<Cell>& cells, std::size_t first,
+               const std::vector<WorldValues>& errors) {
+  const auto best = clearly_smallest(errors);
+  if (!best) return;
+  if (auto* estimate = std::get_if<Estimate>(&cells[first + *best])) estimate->is_best = true;
+}
+
+std::vector<Cell> table1_row(const Cases& cases, const std::string& dataset, MapKind kind,
+                             const reports::PublishedKeyValue& published) {
+  const KeyVariable variable = published.variable;
+  const Metric measured = key_measured(variable, kind);
+  const bool has_paper = is_paper_world(cases, dataset);
+  const auto paper_cell = [&](double value) -> Cell {
+    if (has_paper) return Number{value, measured.decimals};
+    return Missing{"other world"};
+  };
+  std::vector<Cell> row = {dataset,
+                           fmt::format("{} [{}]", name_of(variable), unit_of(variable)),
+                           map_name(kind),
+                           true_cell(true_values(cases, dataset, variable), measured.decimals),
+                           paper_cell(published.karto),
+                           paper_cell(published.proposed)};
+  const std::size_t first = row.size();
+  std::vector<WorldValues> errors;
+  for (const Series& series : table1_series(cases)) {
+    row.push_back(summarise(cases, dataset, series, measured, "not measurable"));
+    errors.push_back(world_values(cases, dataset, series, key_absolute_error(variable, kind)));
+  }
+  mark_best(row, first, errors);
+  return row;
+}
+
+bool has_key_distances(const Cases& cases, const std::string& dataset) {
+  return !true_values(cases, dataset, KeyVariable::kA).empty();
+}
+
+}  // namespace
+
+Table key_distance_table(const Cases& cases) {
+  Table table;
+  table.id = "table1";
+  table.caption =
+      "Table 1. Key distances of the map: median over worlds [95 % bootstrap interval of the "
+      "median] (worlds in which it was measurable / worlds tried)";
+  table.columns = {{"data set", "dataset", ColumnKind::kText},
+                   {"variable", "variable", ColumnKind::kText},
+                   {"map", "map", ColumnKind::kText},
+                   {"true", "true", ColumnKind::kNumber},
+                   {"Karto, in the paper", "paper_karto", ColumnKind::kNumber},
+                   {"proposed, in the paper", "paper_proposed", ColumnKind::kNumber}};
+  for (const Series& series : table1_series(cases)) {
+    table.columns.push_back({cases.label(series), cases.label(series), ColumnKind::kEstimate});
+  }
+  for (const std::string& dataset : cases.datasets()) {
+    if (!has_key_distances(cases, dataset)) continue;
+    for (const MapKind kind : kMapKinds) {
+      for (const auto& published : reports::kPaperTable1) {
+        table.rows.push_back(table1_row(cases, dataset, kind, published));
+      }
+    }
+  }
+  table.notes = {
+      "own: the map that the system handed in. common mapper: one mapper for all, fed with the "
+      "scans and the system's final trajectory, so that only the trajectory differs.",
+      "The paper gives no values of a, b, c and alpha for GMapping. Its values are from one run.",
+      "Bold: |measured - true| is smaller than every other system's, world by world, with the "
+      "whole "
+      "95 % interval of the paired ratio below 1."};
+  return table;
+}
+
+Table key_distance_error_table(const Cases& cases) {
+  Table table;
+  table.id = "table1-errors";
+  table.caption =
+      "Errors of the key distances, |measured - true|: median over worlds [95 % bootstrap "
+      "interval of the median] (worlds in which it was measurable / worlds tried)";
+  table.columns = {{"data set", "dataset", ColumnKind::kText},
+                   {"map", "map", ColumnKind::kText},
+                   {"system", "system", ColumnKind::kText}};
+  for (const KeyVariable variable : kKeyVariables) {
+    const Metric metric = key_absolute_error(variable, MapKind::kOwn);
+    table.columns.push_back({fmt::format("{} [{}]", name_of(variable), unit_of(variable)),
+                             metric.key, ColumnKind::kEstimate});
+  }
+  const std::vector<Series> all = cases.series();
+  for (const std::string& dataset : cases.datasets()) {
+    if (!has_key_distances(cases, dataset)) continue;
+    for (const MapKind kind : kMapKinds) {
+      const std::size_t first_row = table.rows.size();
+      for (const Series& series : all) {
+        table.rows.push_back({dataset, map_name(kind), cases.label(series)});
+      }
+      for (const KeyVariable variable : kKeyVariables) {
+        const Metric metric = key_absolute_error(variable, kind);
+        std::vector<Cell> cells;
+        std::vector<WorldValues> errors;
+        for (const Series& series : all) {
+          cells.push_back(summarise(cases, dataset, series, metric, "not measurable"));
+          errors.push_back(world_values(cases, dataset, series, metric));
+        }
+        mark_best(cells, 0, errors);
+        for (std::size_t index = 0; index < all.size(); ++index) {
+          table.rows[first_row + index].push_back(cells[index]);
+        }
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace corridor::tables

@@ -1,0 +1,38 @@
+// The tables of a report, each made from all cases. A table without rows means: nothing of the kind
+// ran.
+#pragma once
+
+#include <vector>
+
+#include "reports/cases.hpp"
+#include "reports/tables/table.hpp"
+
+namespace corridor::tables {
+
+// a, b, c and alpha as measured on the maps of Karto, fusion-paper, fusion and GMapping, beside the
+// paper's table 1. One row per data set, kind of map and variable.
+Table key_distance_table(const reports::Cases& cases);
+// |measured - true| of the same for every system; one row per data set, kind of map and system.
+Table key_distance_error_table(const reports::Cases& cases);
+// Position and angle error, final and online, beside the paper's table 2; data sets with true
+// poses.
+Table trajectory_error_table(const reports::Cases& cases);
+// Paired factors: every system's position error divided by a rival's, world by world.
+Table comparison_table(const reports::Cases& cases);
+// Errors of relations set up by hand, beside published figures; recorded data.
+Table relation_table(const reports::Cases& cases);
+// Time, memory and real-time factor of whole runs.
+Table cost_table(const reports::Cases& cases);
+// Time per stage.
+Table stage_table(const reports::Cases& cases);
+// How many cases ended how.
+Table outcome_table(const reports::Cases& cases);
+// Every case that did not end with status ok, with its message.
+Table failure_table(const reports::Cases& cases);
+// What was not measured: data set, number, systems without it.
+Table missing_table(const reports::Cases& cases);
+
+// Those above that have rows, in the order of the page.
+std::vector<Table> report_tables(const reports::Cases& cases);
+
+}  // namespace corridor::tables

@@ -1,0 +1,123 @@
+// The LaTeX and HTML writers.
+#include <fmt/format.h>
+
+#include "reports/escape.hpp"
+#include "reports/tables/writers.hpp"
+
+namespace corridor::tables {
+namespace {
+
+using reports::escape_html;
+using reports::escape_latex;
+
+// An estimate takes two columns: the median in an S column, aligned at the point, and its interval
+// with the count as text.
+std::string latex_column(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::kText:
+      return "l";
+    case ColumnKind::kNumber:
+      return "S";
+    case ColumnKind::kEstimate:
+      return "S@{\\ }l";
+  }
+  return "l";
+}
+
+std::string latex_heading(const Column& column) {
+  const std::string heading = escape_latex(column.heading);
+  if (column.kind == ColumnKind::kText) return heading;
+  if (column.kind == ColumnKind::kNumber) return fmt::format("{{{}}}", heading);
+  return fmt::format("\\multicolumn{{2}}{{c}}{{{}}}", heading);
+}
+
+std::string latex_estimate(const Estimate& estimate) {
+  const std::string rest =
+      escape_latex(fmt::format("{} ({})", interval_text(estimate), count_text(estimate)));
+  return fmt::format("{}{} & {{\\footnotesize {}}}", estimate.is_best ? "\\bfseries " : "",
+                     number_text(estimate.median, estimate.decimals), rest);
+}
+
+std::string latex_cell(const Cell& cell, ColumnKind kind) {
+  if (const auto* estimate = std::get_if<Estimate>(&cell)) return latex_estimate(*estimate);
+  if (const auto* number = std::get_if<Number>(&cell)) {
+    return number_text(number->value, number->decimals);
+  }
+  const std::string text = escape_latex(plain_text(cell));
+  if (kind == ColumnKind::kText) return text;
+  if (kind == ColumnKind::kNumber) return fmt::format("{{{}}}", text);
+  return fmt::format("\\multicolumn{{2}}{{c}}{{{}}}", text);
+}
+
+std::string html_cell(const Cell& cell) {
+  const auto* estimate = std::get_if<Estimate>(&cell);
+  if (estimate == nullptr) {
+    const bool is_number = std::holds_alternative<Number>(cell);
+    const bool is_missing = std::holds_alternative<Missing>(cell);
+    return fmt::format("<td{}>{}</td>",
+                       is_number    ? " class=\"number\""
+                       : is_missing ? " class=\"missing\""
+                                    : "",
+                       escape_html(plain_text(cell)));
+  }
+  const std::string median = number_text(estimate->median, estimate->decimals);
+  return fmt::format("<td class=\"number\">{0}{1}{2} <small>{3} ({4})</small></td>",
+                     estimate->is_best ? "<strong>" : "", median,
+                     estimate->is_best ? "</strong>" : "", interval_text(*estimate),
+                     count_text(*estimate));
+}
+
+}  // namespace
+
+std::string to_latex(const Table& table) {
+  std::string columns;
+  std::string headings;
+  for (const Column& column : table.columns) {
+    columns += latex_column(column.kind);
+    if (!headings.empty()) headings += " & ";
+    headings += latex_heading(column);
+  }
+  std::string text = fmt::format(
+      "% Needs \\usepackage{{booktabs,siunitx,textcomp}} and \\usepackage[T1]{{fontenc}}.\n"
+      "\\begin{{table}}\n\\centering\n\\caption{{{}}}\n\\label{{tab:{}}}\n"
+      "\\sisetup{{detect-weight=true,table-format=-4.3}}\n"
+      "\\begin{{tabular}}{{{}}}\n\\toprule\n{} \\\\\n\\midrule\n",
+      escape_latex(table.caption), reports::file_name_from(table.id), columns, headings);
+  for (const std::vector<Cell>& row : table.rows) {
+    for (std::size_t index = 0; index < row.size(); ++index) {
+      if (index > 0) text += " & ";
+      text += latex_cell(row[index], table.columns[index].kind);
+    }
+    text += " \\\\\n";
+  }
+  text += "\\bottomrule\n\\end{tabular}\n";
+  for (const std::string& note : table.notes) {
+    text += fmt::format("\\par\\smallskip{{\\footnotesize {}}}\n", escape_latex(note));
+  }
+  return text + "\\end{table}\n";
+}
+
+std::string to_html(const Table& table) {
+  std::string text = fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n<table "
+      "id=\"{1}\"><caption>{0}</caption>\n<thead><tr>",
+      escape_html(table.caption), escape_html(table.id));
+  for (const Column& column : table.columns) {
+    text += fmt::format("<th scope=\"col\"{}>{}</th>",
+                        column.kind == ColumnKind::kText ? "" : " class=\"number\"",
+                        escape_html(column.heading));
+  }
+  text += "</tr></thead>\n<tbody>\n";
+  for (const std::vector<Cell>& row : table.rows) {
+    text += "<tr>";
+    for (const Cell& cell : row) text += html_cell(cell);
+    text += "</tr>\n";
+  }
+  text += "</tbody></table></div>\n";
+  for (const std::string& note : table.notes) {
+    text += fmt::format("<p class=\"note\">{}</p>\n", escape_html(note));
+  }
+  return text;
+}
+
+}  // namespace corridor::tables
