@@ -103,53 +103,57 @@ class LeastSquares final : public BackEnd {
   BackEndReport minimize(int max_iterations) {
     BackEndReport report = begin_report();
     if (report.num_factors == 0) return report;
-    double chi2 = equations_.linearize(graph_, values_);
-    report.chi2_initial = report.chi2 = chi2;
-    report.status = std::isfinite(chi2) ? SolveStatus::kMaxIterations : SolveStatus::kNotFinite;
-    if (report.status == SolveStatus::kNotFinite) return report;
-    double lambda = params_.use_damping ? params_.initial_lambda : 0;
-    double increase = params_.lambda_increase;
-    Eigen::VectorXd delta;
-    while (report.num_iterations < max_iterations) {
-      if (!solve_step(lambda, delta)) {
-        report.status = SolveStatus::kRankDeficient;
-        break;
-      }
-      ++report.num_iterations;
-      const Values before = values_;
-      apply(delta);
-      report.num_relinearized += report.num_variables;
-      // Damped steps are judged by chi2 and linearised anew; plain ones always stand.
-      const double chi2_after = equations_.linearize(graph_, values_);
-      const bool is_success =
-          std::isfinite(chi2_after) && (!params_.use_damping || chi2_after < chi2);
-      if (is_success) {
-        const double decrease = chi2 - chi2_after;
-        const double chi2_before = chi2;
-        report.chi2 = chi2 = chi2_after;
-        lambda *= params_.lambda_decrease;
-        if (delta.squaredNorm() < params_.min_squared_step ||
-            (params_.min_relative_decrease > 0 &&
-             std::abs(decrease) <= params_.min_relative_decrease * chi2_before)) {
-          report.status = SolveStatus::kConverged;
-          break;
-        }
-        continue;
-      }
-      values_ = before;
-      equations_.linearize(graph_, values_);
-      if (!params_.use_damping) {
-        report.status = SolveStatus::kNotFinite;
-        break;
-      }
-      if (delta.squaredNorm() < params_.min_squared_step) {
-        report.status = SolveStatus::kConverged;
-        break;
-      }
-      lambda *= increase;
-      increase *= 2;
+    report.chi2_initial = report.chi2 = equations_.linearize(graph_, values_);
+    if (!std::isfinite(report.chi2)) {
+      report.status = SolveStatus::kNotFinite;
+      return report;
+    }
+    report.status = SolveStatus::kMaxIterations;
+    Damping damping{params_.use_damping ? params_.initial_lambda : 0, params_.lambda_increase};
+    while (report.num_iterations < max_iterations && report.status == SolveStatus::kMaxIterations) {
+      if (report.num_iterations > 0) equations_.linearize(graph_, values_);
+      iterate(damping, report);
     }
     return report;
+  }
+
+  struct Damping {
+    double lambda;
+    double increase;
+  };
+
+  // One step from the present linearisation: taken or taken back, with the status that follows.
+  void iterate(Damping& damping, BackEndReport& report) {
+    Eigen::VectorXd delta;
+    ++report.num_iterations;
+    if (!solve_step(damping.lambda, delta)) {
+      report.status = SolveStatus::kRankDeficient;
+      return;
+    }
+    const Values before = values_;
+    apply(delta);
+    report.num_relinearized += report.num_variables;
+    const double chi2 = graph_.chi2(values_);
+    const bool is_short = delta.squaredNorm() < params_.min_squared_step;
+    // Damped steps are judged by chi2; plain ones always stand.
+    if (std::isfinite(chi2) && (!params_.use_damping || chi2 < report.chi2)) {
+      const double decrease = std::abs(report.chi2 - chi2);
+      const bool is_flat = params_.min_relative_decrease > 0 &&
+                           decrease <= params_.min_relative_decrease * report.chi2;
+      report.chi2 = chi2;
+      damping.lambda *= params_.lambda_decrease;
+      if (is_short || is_flat) report.status = SolveStatus::kConverged;
+      return;
+    }
+    values_ = before;
+    if (!params_.use_damping) {
+      report.status = SolveStatus::kNotFinite;
+    } else if (is_short) {
+      report.status = SolveStatus::kConverged;
+    } else {
+      damping.lambda *= damping.increase;
+      damping.increase *= 2;
+    }
   }
 
   LeastSquaresParams params_;

@@ -17,7 +17,7 @@ struct LeastSquaresParams {
   double initial_lambda = 1e-4;           // H := H + lambda * diag(H)
   double lambda_decrease = 0.5;           // after a successful step
   double lambda_increase = 2.0;           // after a failed one; itself doubled at each failure
-  int update_iterations = 2;              // iterations of update(), which starts near the optimum
+  int update_iterations = 1;              // iterations of update(), which starts near the optimum
 
   template <class V>
   static void visit(LeastSquaresParams& p, V&& v) {
