@@ -1,0 +1,28 @@
+#include "baselines/gmapping/scan_points.hpp"
+
+#include <cmath>
+
+#include "slam/core/expect.hpp"
+
+namespace corridor::gmapping {
+
+ScanPoints usable_points(const LaserScan& scan, const BeamSelection& selection) {
+  CORRIDOR_EXPECT(selection.stride >= 1);
+  const double tilt_rad = selection.tilt_steps * scan.angle_increment_rad;
+  ScanPoints points;
+  points.x_base_m.reserve(scan.num_beams());
+  points.y_base_m.reserve(scan.num_beams());
+  for (std::size_t i = 0; i < scan.num_beams(); i += static_cast<std::size_t>(selection.stride)) {
+    const double range_m = scan.ranges_m[i];
+    if (scan.is_valid[i] == 0 || !(range_m > 0 && range_m <= selection.max_range_m)) continue;
+    const double angle_rad = scan.angle_rad(i) + tilt_rad;
+    const Eigen::Vector2d point_base_m =
+        scan.T_base_lidar *
+        Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+    points.x_base_m.push_back(static_cast<float>(point_base_m.x()));
+    points.y_base_m.push_back(static_cast<float>(point_base_m.y()));
+  }
+  return points;
+}
+
+}  // namespace corridor::gmapping
