@@ -2,10 +2,10 @@
 
 #include <open3d/geometry/PointCloud.h>
 #include <open3d/io/PointCloudIO.h>
-#include <open3d/utility/Logging.h>
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
 #include <numeric>
 
 #include "bench/metrics/alignment.hpp"
@@ -85,19 +85,21 @@ std::optional<CloudDistances> score_map_cloud(const GridMap& map, const Trajecto
 }
 
 Result<void> write_ply(const PlanarCloud& cloud, const std::filesystem::path& path) {
-  // Open3D prints its warnings; what went wrong is said by the Error.
-  const open3d::utility::VerbosityContextManager quiet(open3d::utility::VerbosityLevel::Error);
-  const auto failure = [&](const std::string& what) {
-    return fail(ErrorCode::kUnreadable, what, path.string(), "a file that can be written");
-  };
-  try {
-    if (!open3d::io::WritePointCloudToPLY(path.string(), to_open3d(cloud), {})) {
-      return failure("the cloud could not be written");
-    }
-  } catch (const std::exception& error) {
-    return failure(error.what());
+  if (cloud.empty()) {
+    return fail(ErrorCode::kInvalid, "the cloud is empty", path.string(), "at least one point");
   }
-  return {};
+  // Open3D and its PLY library print to the terminal when a file cannot be opened: ask first.
+  if (!std::ofstream(path, std::ios::binary)) {
+    return fail(ErrorCode::kUnreadable, "cannot be opened for writing", path.string(),
+                "a file in a folder that exists");
+  }
+  try {
+    if (open3d::io::WritePointCloudToPLY(path.string(), to_open3d(cloud), {})) return {};
+  } catch (const std::exception& error) {
+    return fail(ErrorCode::kInternal, error.what(), path.string());
+  }
+  return fail(ErrorCode::kUnreadable, "could not be written in full", path.string(),
+              "enough space on the disk");
 }
 
 }  // namespace corridor::metrics

@@ -41,7 +41,7 @@ std::optional<CloudDistances> score_map_cloud(const GridMap& map, const Trajecto
                                               const Trajectory& truth_world,
                                               const simulation::World& world, double lidar_range_m);
 
-// Binary PLY, z = 0.
+// Binary PLY, z = 0. An Error for an empty cloud and for a file that cannot be written.
 Result<void> write_ply(const PlanarCloud& cloud, const std::filesystem::path& path);
 
 }  // namespace corridor::metrics

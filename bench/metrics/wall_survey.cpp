@@ -11,19 +11,16 @@
 #include <utility>
 
 #include "bench/metrics/association.hpp"
-#include "bench/metrics/wall_visibility.hpp"
 #include "bench/statistics/quantiles.hpp"
 
 namespace corridor::metrics {
 namespace {
 
-constexpr double kPointSpacing_m = 0.1;
 // Hits nearer to a wall's end than this may be those of the wall that begins there.
 constexpr double kEnd_m = 0.2;
 constexpr double kSameLine_m = 1e-6;
-constexpr double kDeviationPerMad =
-    1.4826;  // standard deviation of a normal per median absolute deviation
 constexpr double kBandPerDisagreement = 3;
+constexpr double kMaxDisagreement_m = 0.3;
 constexpr std::size_t kMinCells = 20;
 constexpr std::size_t kMinSlabs = 3;
 constexpr double kMinSeen_m = 1;
@@ -69,13 +66,16 @@ Pose2 frame_through(std::span<const Eigen::Vector2d> points_map_m) {
 // Why a fitted line is not to be trusted; empty if it is.
 std::string doubt_about(const WallLine& line, const SlabStatistics& slabs) {
   const double slab_scatter_m = std::sqrt(slabs.residual_variance_m2);
-  if (slabs.num_slabs < kMinSlabs)
+  if (slabs.num_slabs < kMinSlabs) {
     return fmt::format("too little of it ({} slabs)", slabs.num_slabs);
+  }
   if (slabs.doubled_ratio > kMaxDoubledRatio) return "the wall is doubled";
-  if (line.scatter_m > kMaxScatter_m)
+  if (line.scatter_m > kMaxScatter_m) {
     return fmt::format("no wall, hits scatter by {:.2f} m", line.scatter_m);
-  if (slab_scatter_m > kMaxSlabScatter_m)
+  }
+  if (slab_scatter_m > kMaxSlabScatter_m) {
     return fmt::format("the wall is bent by {:.2f} m", slab_scatter_m);
+  }
   if (line.background_ratio > kMaxBackgroundRatio) {
     return fmt::format("ambiguous, {:.0f} % of the hits are elsewhere",
                        100 * line.background_ratio);
@@ -100,46 +100,17 @@ WallSurvey::WallSurvey(const GridMap& map, const Trajectory& estimate,
     emptiness_ = "the map is empty";
     return;
   }
-  believe_walls(estimate, truth_world, world, lidar_range_m);
-  if (emptiness_.empty()) assign_cells(map);
-}
-
-void WallSurvey::believe_walls(const Trajectory& estimate, const Trajectory& truth_world,
-                               const simulation::World& world, double lidar_range_m) {
   const auto pairs = associate(estimate, truth_world, AssociationRule::kNearest).pairs;
   if (pairs.empty()) {
     emptiness_ = "no estimated pose has a true one";
     return;
   }
-  std::vector<Pose2> T_world_base, T_map_world;
-  for (const MatchedPose& pair : pairs) {
-    T_world_base.push_back(pair.T_world_base);
-    T_map_world.push_back(pair.T_map_base * pair.T_world_base.inverse());
+  points_ = believe_walls(pairs, world, lidar_range_m);
+  if (points_.empty()) {
+    emptiness_ = "no wall was seen";
+    return;
   }
-  const auto samples = sample_walls(world, kPointSpacing_m);
-  const auto sightings = find_sightings(samples, world, T_world_base, lidar_range_m);
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (sightings[k].empty()) continue;
-    std::vector<double> x_m, y_m, deviations_m;
-    for (const std::uint32_t i : sightings[k]) {
-      const Eigen::Vector2d believed_m = T_map_world[i] * samples[k].point_world_m;
-      x_m.push_back(believed_m.x());
-      y_m.push_back(believed_m.y());
-    }
-    const simulation::Segment& wall = world.walls[samples[k].wall_index];
-    const Eigen::Vector2d along = (wall.b_m - wall.a_m).normalized();
-    const Eigen::Vector2d median_m(median_of(x_m), median_of(y_m));
-    // Across the wall as the middle sighting turned it.
-    const Eigen::Vector2d along_map =
-        T_map_world[sightings[k][sightings[k].size() / 2]].rotation() * along;
-    const Eigen::Vector2d across_map(-along_map.y(), along_map.x());
-    for (std::size_t i = 0; i < x_m.size(); ++i) {
-      deviations_m.push_back(std::abs(across_map.dot(Eigen::Vector2d(x_m[i], y_m[i]) - median_m)));
-    }
-    points_.push_back({samples[k].point_world_m, median_m, samples[k].wall_index,
-                       kDeviationPerMad * median_of(deviations_m)});
-  }
-  if (points_.empty()) emptiness_ = "no wall was seen";
+  assign_cells(map);
 }
 
 void WallSurvey::assign_cells(const GridMap& map) {
@@ -209,6 +180,10 @@ tl::expected<MeasuredWall, std::string> WallSurvey::measure(const WallStretch& s
   if (!emptiness_.empty()) return no_line(emptiness_);
   const auto expected = expect(stretch);
   if (!expected) return no_line("the wall was not seen");
+  if (expected->disagreement_m > kMaxDisagreement_m) {
+    return no_line(fmt::format("ambiguous, the scans that saw it disagree by {:.2f} m",
+                               expected->disagreement_m));
+  }
   const auto cells = cells_of(*expected);
   if (cells.size() < kMinCells) return no_line(fmt::format("too few cells ({})", cells.size()));
   const CellShape shape{resolution_m_, expected->T_map_wall.theta_rad()};
@@ -236,7 +211,8 @@ MeasuredWall WallSurvey::measured_wall(const ExpectedWall& expected, const WallL
   const double num_rows =
       std::max(1.0, length_m * sine_to_grid(wall.direction_rad) / resolution_m_);
   const double grid_m =
-      resolution_m_ * (has_hit_counts_ ? kHitGridRatio : 1 / std::sqrt(12.0)) / num_rows;
+      has_hit_counts_ ? kHitGridRatio * resolution_m_ / num_rows
+                      : resolution_m_ * std::hypot(1 / std::sqrt(12.0) / num_rows, kFaceRatio);
   const double variance_m2 =
       slabs.residual_variance_m2 + expected.disagreement_m * expected.disagreement_m;
   wall.offset_sigma_m =
