@@ -31,11 +31,16 @@ std::string latex_heading(const Column& column) {
   return fmt::format("\\multicolumn{{2}}{{c}}{{{}}}", heading);
 }
 
+// "[0.150, 0.240] (10/10)", without the interval where there is none.
+std::string spread_text(const Estimate& estimate) {
+  const std::string interval = interval_text(estimate);
+  return fmt::format("{}{}({})", interval, interval.empty() ? "" : " ", count_text(estimate));
+}
+
 std::string latex_estimate(const Estimate& estimate) {
-  const std::string rest =
-      escape_latex(fmt::format("{} ({})", interval_text(estimate), count_text(estimate)));
   return fmt::format("{}{} & {{\\footnotesize {}}}", estimate.is_best ? "\\bfseries " : "",
-                     number_text(estimate.median, estimate.decimals), rest);
+                     number_text(estimate.median, estimate.decimals),
+                     escape_latex(spread_text(estimate)));
 }
 
 std::string latex_cell(const Cell& cell, ColumnKind kind) {
@@ -60,11 +65,10 @@ std::string html_cell(const Cell& cell) {
                                     : "",
                        escape_html(plain_text(cell)));
   }
-  const std::string median = number_text(estimate->median, estimate->decimals);
-  return fmt::format("<td class=\"number\">{0}{1}{2} <small>{3} ({4})</small></td>",
-                     estimate->is_best ? "<strong>" : "", median,
-                     estimate->is_best ? "</strong>" : "", interval_text(*estimate),
-                     count_text(*estimate));
+  return fmt::format("<td class=\"number\">{}{}{} <small>{}</small></td>",
+                     estimate->is_best ? "<strong>" : "",
+                     number_text(estimate->median, estimate->decimals),
+                     estimate->is_best ? "</strong>" : "", spread_text(*estimate));
 }
 
 }  // namespace

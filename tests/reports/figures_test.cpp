@@ -1,0 +1,143 @@
+// Axes, frames, the SVG writer and the rasteriser.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "reports/figures/raster.hpp"
+#include "reports/figures/report_figures.hpp"
+#include "reports/figures/scale.hpp"
+#include "reports/figures/svg.hpp"
+#include "tests/reports/synthetic_run.hpp"
+
+namespace corridor::figures {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kExact = 1e-9;
+
+std::vector<std::string> labels(const std::vector<Tick>& ticks) {
+  std::vector<std::string> texts;
+  for (const Tick& tick : ticks) texts.push_back(tick.label);
+  return texts;
+}
+
+TEST(LinearTicks, AreRoundNumbers) {
+  EXPECT_THAT(labels(linear_ticks(0, 21, 5)), ::testing::ElementsAre("0", "5", "10", "15", "20"));
+  EXPECT_THAT(labels(linear_ticks(0, 0.5, 5)),
+              ::testing::ElementsAre("0.0", "0.1", "0.2", "0.3", "0.4", "0.5"));
+}
+
+RC_GTEST_PROP(LinearTicks, LieInsideAndAreEvenlySpaced, ()) {
+  const double low = *rc::gen::inRange(-100'000, 100'000) * 0.013;
+  const double high = low + *rc::gen::inRange(1, 100'000) * 0.017;
+  const auto ticks = linear_ticks(low, high, 6);
+  const double slack = 1e-6 * (high - low);
+  RC_ASSERT(ticks.size() <= 8U);
+  for (std::size_t index = 0; index < ticks.size(); ++index) {
+    RC_ASSERT(ticks[index].value >= low - slack);
+    RC_ASSERT(ticks[index].value <= high + slack);
+    if (index == 0) continue;
+    RC_ASSERT(std::abs(ticks[index].value - ticks[index - 1].value -
+                       (ticks[1].value - ticks[0].value)) < slack);
+  }
+}
+
+TEST(LogTicks, StandAtOneTwoAndFive) {
+  EXPECT_THAT(labels(log_ticks(0.09, 6)),
+              ::testing::ElementsAre("0.1", "0.2", "0.5", "1", "2", "5"));
+  EXPECT_THAT(labels(log_ticks(0.001, 100)),
+              ::testing::ElementsAre("0.001", "0.01", "0.1", "1", "10", "100"));
+}
+
+TEST(LogScale, PutsTheGeometricMeanInTheMiddleAndClampsOutside) {
+  const LogScale scale(0.01, 100, 200, 400);
+  EXPECT_NEAR(scale(1), 300, kExact);
+  EXPECT_NEAR(scale(1e9), 400, kExact);
+  EXPECT_NEAR(scale(0), 200, kExact);
+}
+
+TEST(PlaneFrame, KeepsTheAspectAndTurnsYUp) {
+  Bounds bounds;
+  bounds.include({0, 0});
+  bounds.include({20, 10});
+  const PlaneFrame frame(bounds, 0, 0, 220, 220, 10);
+  EXPECT_NEAR(frame.px_per_m(), 10, kExact);
+  EXPECT_NEAR(frame({0, 0}).x(), 10, kExact);
+  EXPECT_NEAR(frame({20, 10}).x(), 210, kExact);
+  EXPECT_NEAR(frame({0, 0}).y() - frame({0, 10}).y(), 100, kExact);
+}
+
+TEST(PlaneFrame, OfNothingStaysFinite) {
+  EXPECT_TRUE(PlaneFrame(Bounds{}, 0, 0, 100, 100, 10)({1, 1}).allFinite());
+}
+
+TEST(Svg, EscapesEveryTextAndStaysWellFormed) {
+  const std::string hostile = "</text><script>alert(1)</script>\" & ' \x01 \xFF ]]>";
+  Svg svg(hostile, 200, 100, hostile, hostile);
+  svg.text(10, 20, hostile);
+  svg.begin_clip(0, 0, 50, 50);
+  svg.line(0, 0, 10, 10, "axis");
+  svg.end_group();
+  EXPECT_THAT(svg.file(), Not(HasSubstr("<script")));
+  EXPECT_TRUE(png_from_svg(svg.file(), 1));
+}
+
+TEST(Svg, CarriesNoStyleInsideThePageAndOneInItsFile) {
+  const Svg svg("x", 10, 10, "title", "description");
+  EXPECT_THAT(svg.element(), Not(HasSubstr("<style")));
+  EXPECT_THAT(svg.file(), HasSubstr("<style>"));
+  EXPECT_THAT(svg.file(), HasSubstr("prefers-color-scheme:dark"));
+}
+
+TEST(PngFromSvg, RefusesWhatIsNoSvg) {
+  const auto png = png_from_svg("<svg", 1);
+  ASSERT_FALSE(png);
+  EXPECT_THAT(png.error().to_line(), HasSubstr("librsvg"));
+}
+
+TEST(PngFromSvg, IsLightWhateverTheDarkRulesSay) {
+  const Svg svg("x", 4, 4, "title", "description");
+  const auto png = png_from_svg(svg.file(), 1);
+  const Svg other("x", 4, 4, "other title", "");
+  ASSERT_TRUE(png);
+  EXPECT_EQ(png->substr(1, 3), "PNG");
+  EXPECT_EQ(*png, *png_from_svg(other.file(), 1));
+}
+
+TEST(PngFromPixels, GivesTheSameBytesForTheSamePixels) {
+  const PixelImage image{2, 1, {0xFF000000, 0x00FFFFFF}};
+  const auto first = png_from_pixels(image);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(*first, *png_from_pixels(image));
+}
+
+TEST(SeriesStyle, IsTheSameForTheSameNameAndKnowsEverySystem) {
+  EXPECT_EQ(series_style("karto").name, "karto");
+  EXPECT_EQ(series_style("<script>").name, series_style("<script>").name);
+  EXPECT_THAT(std::string(series_style("<script>").name), HasSubstr("spare"));
+}
+
+TEST(RepresentativeWorld, IsTheOneOfKartosMedianError) {
+  const auto run = reports::testing::paper_like_run();
+  std::vector<reports::Case> all;
+  std::vector<double> errors_m;
+  for (const auto& system : run.systems) {
+    for (std::uint64_t seed = 1; seed <= 7; ++seed) {
+      all.push_back({reports::testing::synthetic_result(run, system, seed), {}});
+      if (system.name == "karto") {
+        errors_m.push_back(*all.back().result.final_scores.position_rmse_m);
+      }
+    }
+  }
+  const auto chosen = representative_world(reports::Cases(all, {}, {}), run.dataset);
+  ASSERT_TRUE(chosen);
+  const double error_m = errors_m[static_cast<std::size_t>(*chosen->world.data_seed) - 1];
+  std::sort(errors_m.begin(), errors_m.end());
+  EXPECT_EQ(error_m, errors_m[3]);
+  EXPECT_THAT(chosen->reason, HasSubstr("karto"));
+}
+
+}  // namespace
+}  // namespace corridor::figures
