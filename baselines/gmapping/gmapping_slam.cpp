@@ -58,7 +58,8 @@ class GmappingSlam final : public SlamSystem {
     }
     report.is_key_scan = on_scan(*scan);
     report.status = StepStatus::kTracked;
-    report.T_map_base = filter_.best().T_map_base;
+    if (report.is_key_scan) T_map_start_ = filter_.best().T_map_base * T_start_base_.inverse();
+    report.T_map_base = T_map_start_ * T_start_base_;
     return report;
   }
 
@@ -143,6 +144,7 @@ class GmappingSlam final : public SlamSystem {
   std::optional<Pose2> T_odom_base_;       // latest wheel sample
   std::optional<Pose2> last_T_odom_base_;  // at the last scan
   Pose2 T_start_base_;                     // odometry since the first scan
+  Pose2 T_map_start_;                      // correction of the odometry at the last used scan
   std::vector<ScanRecord> records_;        // one per scan
   std::vector<UsedScan> used_scans_;
   double num_resamplings_ = 0;
