@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/LU>
+#include <memory>
+#include <numbers>
+
+#include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
+#include "slam/backend/gauss_newton/normal_equations.hpp"
+#include "slam/core/rng.hpp"
+#include "slam/graph/factors/pose_factors.hpp"
+
+namespace corridor::backend {
+namespace {
+
+using graph::FactorPtr;
+using graph::pose_key;
+
+// Both solvers stop at a relative decrease of 1e-12 in these tests.
+constexpr double kSameOptimum = 1e-6;
+
+struct PoseGraph {
+  std::vector<std::vector<FactorPtr>> steps;  // factors that arrive with each pose
+  graph::Values initial;
+};
+
+FactorPtr edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
+  const Eigen::Vector3d weight(10, 10, 30);
+  return std::make_unique<graph::RelativePose>(pose_key(i), pose_key(j), T_i_j,
+                                               weight.asDiagonal().toDenseMatrix());
+}
+
+FactorPtr prior(std::uint32_t i, const Pose2& T_map_base = {}) {
+  return std::make_unique<graph::PosePrior>(pose_key(i), T_map_base,
+                                            1e3 * Eigen::Matrix3d::Identity());
+}
+
+Pose2 noisy(Rng& rng, const Pose2& pose) {
+  return pose * Pose2::exp({rng.normal(0, 0.05), rng.normal(0, 0.05), rng.normal(0, 0.02)});
+}
+
+// A robot that drives two rounds of a ring, with a closure at each pose of the second.
+PoseGraph ring(std::uint64_t seed) {
+  Rng rng(seed);
+  constexpr std::uint32_t kRound = 12;
+  const Pose2 step(1, 0, 2 * std::numbers::pi / kRound);
+  PoseGraph problem;
+  Pose2 dead_reckoning;
+  for (std::uint32_t i = 0; i < 2 * kRound; ++i) {
+    std::vector<FactorPtr> factors;
+    if (i == 0) {
+      factors.push_back(prior(0));
+    } else {
+      const Pose2 measured = noisy(rng, step);
+      dead_reckoning = dead_reckoning * measured;
+      factors.push_back(edge(i - 1, i, measured));
+    }
+    if (i >= kRound) factors.push_back(edge(i - kRound, i, noisy(rng, Pose2())));
+    problem.initial.set_pose(i, dead_reckoning);
+    problem.steps.push_back(std::move(factors));
+  }
+  return problem;
+}
+
+LeastSquaresParams exact(bool use_damping) {
+  LeastSquaresParams params;
+  params.use_damping = use_damping;
+  params.max_iterations = 100;
+  params.min_relative_decrease = 1e-12;
+  return params;
+}
+
+// Feeds step by step; the estimate after the last update and a final solve.
+graph::Values solve(PoseGraph problem, const LeastSquaresParams& params, bool incrementally) {
+  const auto solver = make_least_squares(params);
+  for (std::uint32_t i = 0; i < problem.steps.size(); ++i) {
+    graph::Values values;
+    values.set_pose(i, problem.initial.pose(i));
+    if (incrementally) {
+      const BackEndReport report = solver->update(std::move(problem.steps[i]), values, {});
+      EXPECT_NE(report.status, SolveStatus::kRankDeficient);
+    } else {
+      (void)solver->add(std::move(problem.steps[i]), values);
+    }
+  }
+  EXPECT_EQ(solver->solve().status, SolveStatus::kConverged);
+  return solver->estimate();
+}
+
+double largest_difference(const graph::Values& a, const graph::Values& b) {
+  double largest = 0;
+  for (const graph::Key key : a.keys()) {
+    largest = std::max(largest, a.pose(key.index).minus(b.pose(key.index)).norm());
+  }
+  return largest;
+}
+
+RC_GTEST_PROP(LeastSquares, IncrementalUpdatesEndAtTheBatchOptimum, (std::uint64_t seed)) {
+  RC_ASSERT(largest_difference(solve(ring(seed), exact(false), true),
+                               solve(ring(seed), exact(false), false)) < kSameOptimum);
+}
+
+RC_GTEST_PROP(LeastSquares, LevenbergEndsAtTheGaussNewtonOptimum, (std::uint64_t seed)) {
+  RC_ASSERT(largest_difference(solve(ring(seed), exact(true), false),
+                               solve(ring(seed), exact(false), false)) < kSameOptimum);
+}
+
+TEST(LeastSquares, SpaSettingsReachTheOptimumToo) {
+  const auto solver = make_least_squares(spa_params());
+  PoseGraph problem = ring(5);
+  for (auto& factors : problem.steps) (void)solver->add(std::move(factors), problem.initial);
+  const BackEndReport report = solver->solve();
+  EXPECT_LT(report.chi2, report.chi2_initial);
+  EXPECT_LT(largest_difference(solver->estimate(), solve(ring(5), exact(false), false)),
+            kSameOptimum);
+}
+
+TEST(LeastSquares, GradientVanishesAtTheOptimum) {
+  const graph::Values optimum = solve(ring(9), exact(false), false);
+  PoseGraph problem = ring(9);
+  graph::FactorGraph graph;
+  NormalEquations equations;
+  for (const graph::Key key : optimum.keys()) equations.add_variable(key);
+  for (auto& factors : problem.steps) {
+    for (FactorPtr& factor : factors) {
+      const graph::FactorId id = graph.add(std::move(factor));
+      equations.add_factor(id, graph.factor(id));
+    }
+  }
+  equations.linearize(graph, optimum);
+  EXPECT_LT(equations.gradient().norm(), 1e-3);
+}
+
+TEST(LeastSquares, MarginalCovarianceIsTheBlockOfTheInverseHessian) {
+  const auto solver = make_least_squares(exact(false));
+  PoseGraph problem = ring(2);
+  NormalEquations equations;
+  for (const graph::Key key : problem.initial.keys()) equations.add_variable(key);
+  for (auto& factors : problem.steps) (void)solver->add(std::move(factors), problem.initial);
+  solver->solve();
+  for (graph::FactorId id = 0; id < solver->graph().slots().size(); ++id) {
+    equations.add_factor(id, solver->graph().factor(id));
+  }
+  equations.linearize(solver->graph(), solver->estimate());
+  const Eigen::MatrixXd hessian =
+      Eigen::MatrixXd(equations.lower_hessian()).selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd inverse = hessian.inverse();
+  const int row = equations.first_row(pose_key(7));
+  const auto covariance = solver->marginal_covariance(pose_key(7));
+  ASSERT_TRUE(covariance.has_value());
+  EXPECT_LT((*covariance - inverse.block<3, 3>(row, row)).norm(), 1e-9 * covariance->norm());
+}
+
+TEST(LeastSquares, WithoutAPriorThePosesAreUndeterminedAndStayAsTheyWere) {
+  const auto solver = make_least_squares({});
+  graph::Values values;
+  values.set_pose(0, {});
+  values.set_pose(1, {2, 0, 0});
+  std::vector<FactorPtr> factors;
+  factors.push_back(edge(0, 1, {1, 0, 0}));
+  EXPECT_EQ(solver->update(std::move(factors), values, {}).status, SolveStatus::kRankDeficient);
+  EXPECT_EQ(solver->estimate().pose(1), Pose2(2, 0, 0));
+  EXPECT_FALSE(solver->marginal_covariance(pose_key(0)).has_value());
+}
+
+TEST(LeastSquares, ARemovedFactorNoLongerPulls) {
+  const auto solver = make_least_squares(exact(false));
+  graph::Values values;
+  values.set_pose(0, {});
+  values.set_pose(1, {1, 0, 0});
+  std::vector<FactorPtr> factors;
+  factors.push_back(prior(0));
+  factors.push_back(edge(0, 1, {1, 0, 0}));
+  factors.push_back(edge(0, 1, {3, 0, 0}));
+  const BackEndReport report = solver->update(std::move(factors), values, {});
+  ASSERT_EQ(report.new_factor_ids.size(), 3u);
+  solver->solve();
+  EXPECT_NEAR(solver->estimate().pose(1).x_m(), 2, 1e-6);
+  const std::vector<graph::FactorId> removed = {report.new_factor_ids[2]};
+  (void)solver->update({}, {}, removed);
+  solver->solve();
+  EXPECT_NEAR(solver->estimate().pose(1).x_m(), 1, 1e-6);
+}
+
+TEST(LeastSquares, NothingToSolveIsAStatus) {
+  const auto solver = make_least_squares({});
+  EXPECT_EQ(solver->solve().status, SolveStatus::kEmpty);
+}
+
+}  // namespace
+}  // namespace corridor::backend
