@@ -10,9 +10,9 @@ namespace corridor::architecture {
 
 namespace {
 
-constexpr std::array<std::string_view, 16> kTextExtensions{
-    ".cpp",  ".hpp",  ".sh",    ".js",  ".css", ".html", ".md",  ".txt",
-    ".toml", ".json", ".cmake", ".csv", ".tex", ".yaml", ".svg", ""};
+constexpr std::array<std::string_view, 17> kTextExtensions{
+    ".cpp",  ".hpp",   ".sh",  ".js",  ".css",  ".html", ".md", ".txt", ".toml",
+    ".json", ".cmake", ".csv", ".tex", ".yaml", ".svg",  ".in", ""};
 
 // What version control leaves out: build folders, results, caches, editors' notes.
 bool is_ignored(const std::string& path) {
