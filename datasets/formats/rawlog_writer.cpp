@@ -75,8 +75,10 @@ class RawlogWriter {
     mrpt::obs::CObservationOdometry out;
     out.sensorLabel = "WHEELS";
     out.timestamp = clock_of(sample.stamp);
-    out.odometry = mrpt::poses::CPose2D(sample.T_odom_base.x_m(), sample.T_odom_base.y_m(),
-                                        sample.T_odom_base.theta_rad());
+    // Not by CPose2D's constructor: its wrapping loses the angle's last bits.
+    out.odometry.x(sample.T_odom_base.x_m());
+    out.odometry.y(sample.T_odom_base.y_m());
+    out.odometry.phi(sample.T_odom_base.theta_rad());
     out.hasEncodersInfo = sample.ticks.has_value();
     if (sample.ticks) {
       if (!fits_int32(sample.ticks->left) || !fits_int32(sample.ticks->right)) return false;

@@ -56,14 +56,11 @@ Result<PlanarPose> parse_pose(std::string_view line, const std::string& where) {
 
 }  // namespace
 
-Result<Trajectory> read_tum(const std::filesystem::path& path) {
-  const auto bytes = read_file_bytes(path);
-  if (!bytes) return tl::make_unexpected(bytes.error());
+Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
   Trajectory trajectory;
-  std::string_view text = *bytes;
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {
-    const std::string where = fmt::format("{}:{}", path.string(), ++line_number);
+    const std::string where = fmt::format("{}:{}", name, ++line_number);
     std::string_view rest = *line;
     const std::string_view first = take_field(rest);
     if (first.empty() || first.front() == '#') continue;
@@ -77,14 +74,24 @@ Result<Trajectory> read_tum(const std::filesystem::path& path) {
   return trajectory;
 }
 
-Result<void> write_tum(const Trajectory& trajectory, const std::filesystem::path& path) {
+Result<Trajectory> read_tum(const std::filesystem::path& path) {
+  const auto bytes = read_file_bytes(path);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  return parse_tum(*bytes, path.string());
+}
+
+std::string tum_text(const Trajectory& trajectory) {
   std::string text;
   for (const TrajectoryPose& pose : trajectory.poses()) {
     const double half_rad = 0.5 * pose.T_map_base.theta_rad();
     text += fmt::format("{} {} {} 0 0 0 {} {}\n", format_stamp(pose.stamp), pose.T_map_base.x_m(),
                         pose.T_map_base.y_m(), std::sin(half_rad), std::cos(half_rad));
   }
-  return write_file_atomically(path, text);
+  return text;
+}
+
+Result<void> write_tum(const Trajectory& trajectory, const std::filesystem::path& path) {
+  return write_file_atomically(path, tum_text(trajectory));
 }
 
 }  // namespace corridor::formats

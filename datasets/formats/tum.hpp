@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "slam/core/result.hpp"
 #include "slam/core/trajectory.hpp"
@@ -14,6 +16,10 @@ namespace corridor::formats {
 // Error with file:line: field count, number syntax, non-finite value, stamp not later than the one
 // before, quaternion not of unit length (within 1e-3), roll or pitch beyond 1e-6 rad.
 Result<Trajectory> read_tum(const std::filesystem::path& path);
+
+// The same on text; `name` stands for the file in messages.
+Result<Trajectory> parse_tum(std::string_view text, const std::string& name);
+std::string tum_text(const Trajectory& trajectory);
 
 // Covariances are not written.
 Result<void> write_tum(const Trajectory& trajectory, const std::filesystem::path& path);

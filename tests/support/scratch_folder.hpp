@@ -25,6 +25,9 @@ class ScratchFolder {
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
 
   // Writes a file inside, with the folders on its way; returns its full path.
   std::filesystem::path write(const std::filesystem::path& relative,

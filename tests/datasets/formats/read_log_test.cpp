@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "datasets/formats/log_io.hpp"
+#include "datasets/formats/tum.hpp"
+#include "tests/datasets/formats/formats_support.hpp"
+
+namespace corridor::formats {
+namespace {
+
+using test::ScratchFolder;
+using test::small_log;
+using test::write_text;
+
+template <class T, class Change>
+void change_nth(SensorLog& log, int n, Change change) {
+  for (auto& event : log.events) {
+    if (auto* reading = std::get_if<T>(&event); reading != nullptr && n-- == 0) change(*reading);
+  }
+}
+
+bool notes_contain(const SensorLog& log, const std::string& part) {
+  for (const std::string& note : log.provenance.notes) {
+    if (note.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(ReadLog, ChoosesTheFormatByTheLongestKnownSuffix) {
+  EXPECT_EQ(format_from_suffix("a.clf.gz"), LogFormat::kCarmen);
+  EXPECT_EQ(format_from_suffix("dir.rawlog/a.log"), LogFormat::kCarmen);
+  EXPECT_EQ(format_from_suffix("a.b.rawlog"), LogFormat::kRawlog);
+  EXPECT_EQ(format_from_suffix("a.gz"), std::nullopt);
+  EXPECT_EQ(sidecar_of("d/a.b.clf.gz", ".tum"), std::filesystem::path("d/a.b.tum"));
+  EXPECT_EQ(sidecar_of("a.log", ".robot.toml"), std::filesystem::path("a.robot.toml"));
+  const auto unknown = read_log("a.xyz");
+  ASSERT_FALSE(unknown.has_value());
+  EXPECT_EQ(unknown.error().code, ErrorCode::kUnsupported);
+}
+
+// Every defect written to a rawlog and read back: refused in one line that names the file.
+TEST(ReadLog, RefusesEachDefectOfTheReadings) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  const std::vector<std::pair<std::string, std::function<void(SensorLog&)>>> defects = {
+      {"steps back",
+       [](SensorLog& log) {
+         change_nth<ImuSample>(log, 9, [](auto& s) { s.stamp.nanoseconds -= 40'000'000; });
+       }},
+      {"repeats",
+       [](SensorLog& log) {
+         change_nth<ImuSample>(log, 9, [](auto& s) { s.stamp.nanoseconds -= 10'000'000; });
+       }},
+      {"gap of",
+       [](SensorLog& log) {
+         change_nth<LaserScan>(log, 3, [](auto& s) { s.stamp.nanoseconds += 20'000'000'000; });
+       }},
+      {"valid with range nan",
+       [kNan](SensorLog& log) {
+         change_nth<LaserScan>(log, 1, [kNan](auto& s) { s.ranges_m[2] = kNan; });
+       }},
+      {"valid with range inf",
+       [kInf](SensorLog& log) {
+         change_nth<LaserScan>(log, 1, [kInf](auto& s) { s.ranges_m[2] = kInf; });
+       }},
+      {"valid with range -1",
+       [](SensorLog& log) { change_nth<LaserScan>(log, 1, [](auto& s) { s.ranges_m[2] = -1; }); }},
+      {"valid with range 0",
+       [](SensorLog& log) { change_nth<LaserScan>(log, 1, [](auto& s) { s.ranges_m[2] = 0; }); }},
+      {"scan of 7 beams",
+       [](SensorLog& log) {
+         change_nth<LaserScan>(log, 1, [](auto& s) {
+           s.ranges_m.pop_back();
+           s.is_valid.pop_back();
+         });
+       }},
+      {"degrees per second",
+       [](SensorLog& log) { change_nth<ImuSample>(log, 5, [](auto& s) { s.gyro_z_radps = 60; }); }},
+      {"IMU reading is not finite",
+       [](SensorLog& log) {
+         change_nth<ImuSample>(log, 5, [](auto& s) { s.accel_x_mps2 = std::nan(""); });
+       }},
+      {"odometry moves",
+       [](SensorLog& log) {
+         change_nth<WheelSample>(log, 5, [](auto& s) { s.T_odom_base = Pose2(100, 0, 0); });
+       }},
+      {"no LiDAR scan",
+       [](SensorLog& log) {
+         std::erase_if(log.events, [](auto& e) { return std::holds_alternative<LaserScan>(e); });
+       }},
+      {"no events", [](SensorLog& log) { log.events.clear(); }},
+      {"wheels.track_m", [](SensorLog& log) { log.robot.wheels.track_m = -1; }},
+  };
+  const ScratchFolder folder;
+  for (const auto& [message, damage] : defects) {
+    SensorLog log = small_log();
+    damage(log);
+    ASSERT_TRUE(write_rawlog(log, folder / "a.rawlog")) << message;
+    const auto read = read_log(folder / "a.rawlog");
+    ASSERT_FALSE(read.has_value()) << message;
+    const std::string line = read.error().to_line();
+    EXPECT_NE(line.find(message), std::string::npos) << line;
+    EXPECT_NE(line.find("a.rawlog"), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+}
+
+TEST(ReadLog, SecondsWrittenAsMillisecondsAreRefused) {
+  const ScratchFolder folder;
+  std::string text;
+  for (int i = 0; i < 5; ++i) {
+    text += "FLASER 2 1 1 0 0 0 0 0 0 " + std::to_string(100'000 * (i + 1)) + " h 0\n";
+  }
+  write_text(folder / "a.clf", text);
+  const auto read = read_log(folder / "a.clf");
+  ASSERT_FALSE(read.has_value());
+  EXPECT_NE(read.error().to_line().find("gap of 100000.000 s"), std::string::npos);
+}
+
+TEST(ReadLog, RawRangesOfNoReturnsThatAreNotFiniteAreReplacedAndCounted) {
+  const ScratchFolder folder;
+  SensorLog log = small_log();
+  change_nth<LaserScan>(log, 0, [](auto& scan) { scan.ranges_m[3] = std::nanf(""); });
+  ASSERT_TRUE(write_rawlog(log, folder / "a.rawlog"));
+  const auto read = read_log(folder / "a.rawlog");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_TRUE(notes_contain(*read, "1 raw ranges of beams without return"));
+}
+
+TEST(ReadLog, TakesTruthFromTheTumFileBesideIt) {
+  const ScratchFolder folder;
+  SensorLog log = small_log();
+  log.truth.emplace();
+  ASSERT_TRUE(log.truth->append({{100'000'000}, Pose2(1, 2, 0.5), {}}));
+  ASSERT_TRUE(write_log(log, folder / "a.clf.gz"));
+  const auto read = read_log(folder / "a.clf.gz");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  ASSERT_TRUE(read->truth.has_value());
+  EXPECT_EQ((*read->truth)[0].T_map_base.x_m(), 1);
+  write_text(folder / "a.tum", "broken\n");
+  EXPECT_FALSE(read_log(folder / "a.clf.gz").has_value());
+}
+
+TEST(ReadLog, ASidecarOverridesTheLogKeyByKeyAndSaysSo) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_rawlog(small_log(), folder / "a.rawlog"));
+  write_text(
+      folder / "a.robot.toml",
+      "[wheels]\ntrack_m = 0.5\n[lidar]\nx_m = 0.5\nrange_max_m = 1.5\nscan_duration_s = 0.05\n");
+  const auto read = read_log(folder / "a.rawlog");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->robot.wheels.track_m, 0.5);
+  EXPECT_EQ(read->robot.imu.T_base_imu, small_log().robot.imu.T_base_imu);
+  EXPECT_TRUE(notes_contain(*read, "LiDAR placed at (0.5000 m"));
+  EXPECT_TRUE(notes_contain(*read, "beams beyond the sidecar's 1.5 m"));
+  for (const auto& event : read->events) {
+    const auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    EXPECT_EQ(scan->T_base_lidar, Pose2(0.5, 0, 0));
+    EXPECT_EQ(scan->duration_s, 0.05);
+    EXPECT_EQ(scan->is_valid.back(), 0);  // 1.875 m and more
+  }
+  write_text(folder / "a.robot.toml", "[wheels]\ntrak_m = 0.5\n");
+  EXPECT_NE(read_log(folder / "a.rawlog").error().to_line().find("wheels.trak_m: unknown key"),
+            std::string::npos);
+}
+
+TEST(ReadLog, TheCallersModelFillsInForLogsThatCarryNone) {
+  const ScratchFolder folder;
+  write_text(folder / "a.clf", "FLASER 2 1 79 0 0 0 0 0 0 1.0 h 1.0\n");
+  ReadLogOptions options;
+  options.robot = RobotModel{};
+  options.robot->lidar.T_base_lidar = Pose2(0.1, 0, 0);
+  options.robot->wheels.track_m = 0.33;
+  options.no_return_range_m = 50;
+  const auto read = read_log(folder / "a.clf", options);
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  const auto& scan = std::get<LaserScan>(read->events[1]);
+  EXPECT_EQ(scan.T_base_lidar, Pose2(0.1, 0, 0));
+  EXPECT_EQ(scan.is_valid, (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(read->robot.lidar.range_max_m, 50);
+  EXPECT_EQ(read->robot.wheels.track_m, 0.33);
+}
+
+TEST(ReadLog, AnUnwritableFolderIsAnErrorAndLeavesNothing) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(write_log(small_log(), folder / "none" / "a.rawlog").has_value());
+  EXPECT_FALSE(write_log(small_log(), folder / "a.xyz").has_value());
+  SensorLog no_scans = small_log();
+  no_scans.events.clear();
+  EXPECT_FALSE(write_carmen(no_scans, folder / "a.clf").has_value());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace corridor::formats
