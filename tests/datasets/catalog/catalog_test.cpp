@@ -1,0 +1,276 @@
+#include "datasets/catalog/catalog.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "datasets/catalog/sha256.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace corridor::catalog {
+namespace {
+
+using testing::ScratchFolder;
+
+constexpr const char* kScans =
+    "FLASER 2 1 2 0 0 0 0 0 0 1.0 h 1.0\nFLASER 2 1 60 0 0 0 0.1 0 0 1.5 h 1.5\n";
+constexpr const char* kRelations = "1.0 1.5 0.1 0 0 0 0 0\n";
+// sha256sum of the two texts above.
+constexpr const char* kScansSha256 =
+    "297417694ae3f01a8913e3f4ee4cfec52ae62be8d05a6aedb4098fb7dc4c9892";
+constexpr const char* kRelationsSha256 =
+    "297f188cfec31a6a215be422a3f615900e18b849adc6ae135db482545148895c";
+
+std::string entry_text(const std::string& more = "", const std::string& name = "tiny") {
+  return "[[dataset]]\nname = \"" + name +
+         "\"\ntitle = \"A tiny log\"\nformat = \"carmen\"\nfiles = [\n"
+         "  { path = \"sub/tiny.clf\", sha256 = \"" +
+         kScansSha256 +
+         "\" },\n"
+         "  { path = \"sub/tiny.relations\", sha256 = \"" +
+         kRelationsSha256 +
+         "\" },\n]\n"
+         "truth = \"relations\"\norder = \"stamp\"\nlicence = \"none stated\"\nsource = "
+         "\"here\"\n" +
+         more;
+}
+
+// A data folder with the tiny log, and its catalogue.
+struct TinyData {
+  TinyData() {
+    folder.write("data/sub/tiny.clf", kScans);
+    folder.write("data/sub/tiny.relations", kRelations);
+    folder.write("catalog.toml", entry_text("no_return_range_m = 50.0\n"
+                                            "calibration.wheels.track_m = 0.33\n"));
+    dirs.folders = {folder / "elsewhere", folder / "data"};
+  }
+  [[nodiscard]] Catalog catalog() const { return *read_catalog(folder / "catalog.toml"); }
+
+  ScratchFolder folder;
+  DataDirs dirs;
+};
+
+TEST(Sha256, IsThatOfTheStandardsExamples) {
+  const ScratchFolder folder;
+  EXPECT_EQ(*sha256_of_file(folder.write("empty", "")),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(*sha256_of_file(folder.write("abc", "abc")),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_FALSE(sha256_of_file(folder / "none").has_value());
+}
+
+TEST(Catalog, OfTheSourceTreeIsValidAndHasEveryNameOfTheCommandLine) {
+  const auto catalog =
+      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
+  ASSERT_TRUE(catalog.has_value()) << catalog.error().to_line();
+  for (const char* name :
+       {"malaga", "intel", "fr079", "aces", "mines", "mbot-empty", "mbot-a0", "corridor-r4.5-s1",
+        "corridor-r4.5-s6", "corridor-r4.5-slip-s7", "corridor-r4.5-vary-s8", "corridor-r12-s1"}) {
+    EXPECT_NE(catalog->find(name), nullptr) << name;
+  }
+  EXPECT_EQ(catalog->find("intel")->no_return_range_m, 81.0);
+  EXPECT_FALSE(catalog->find("mines")->is_readable());
+  EXPECT_EQ(catalog->find("none"), nullptr);
+}
+
+TEST(Catalog, TheProgramFindsItWithoutBeingTold) {
+  EXPECT_TRUE(std::filesystem::exists(default_catalog_path()));
+}
+
+TEST(Catalog, ListsEveryViolationAtOnce) {
+  const ScratchFolder folder;
+  std::string text =
+      entry_text("colour = \"red\"\nno_return_range_m = -1\ncalibration.wheels.trak_m = 1\n") +
+      entry_text();
+  text.replace(text.find("relations\"\norder"), 9, "guesswork");
+  text.replace(text.find(kScansSha256), 4, "XXXX");
+  folder.write("catalog.toml", text);
+  const auto catalog = read_catalog(folder / "catalog.toml");
+  ASSERT_FALSE(catalog.has_value());
+  const std::string line = catalog.error().to_line();
+  for (const char* part :
+       {"colour: unknown key", "truth: expected", "64 lower-case hexadecimal",
+        "no_return_range_m: expected", "wheels.trak_m: unknown key", "name tiny is given twice"}) {
+    EXPECT_NE(line.find(part), std::string::npos) << part << " in " << line;
+  }
+}
+
+TEST(Catalog, RefusesFilesOutsideTheDataFolder) {
+  const ScratchFolder folder;
+  std::string text = entry_text();
+  text.replace(text.find("sub/tiny.clf"), 12, "../tiny.clf");
+  folder.write("catalog.toml", text);
+  EXPECT_FALSE(read_catalog(folder / "catalog.toml").has_value());
+  EXPECT_EQ(read_catalog(folder / "none.toml").error().code, ErrorCode::kNotFound);
+  folder.write("catalog.toml", "[[dataset]\n");
+  EXPECT_NE(read_catalog(folder / "catalog.toml").error().to_line().find("catalog.toml:1"),
+            std::string::npos);
+}
+
+TEST(LoadDataset, ByNameTakesOrderCalibrationAndTruthFromTheCatalogue) {
+  const TinyData data;
+  const auto loaded = load_dataset("tiny", data.dirs, data.catalog());
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+  EXPECT_EQ(loaded->name, "tiny");
+  EXPECT_EQ(loaded->sha256, kScansSha256);
+  EXPECT_EQ(loaded->log.robot.wheels.track_m, 0.33);
+  EXPECT_EQ(loaded->log.robot.lidar.range_max_m, 50);
+  EXPECT_EQ(std::get<LaserScan>(loaded->log.events[3]).is_valid, (std::vector<std::uint8_t>{1, 0}));
+  ASSERT_TRUE(loaded->relations.has_value());
+  EXPECT_EQ(loaded->relations->size(), 1U);
+  EXPECT_FALSE(loaded->world_file.has_value());
+}
+
+TEST(LoadDataset, ByPathTakesTruthFromBesideTheFile) {
+  const TinyData data;
+  data.folder.write("data/sub/tiny.tum", "1.0 0 0 0 0 0 0 1\n");
+  data.folder.write("data/sub/tiny.truth.toml", "[world]\n");
+  const auto path = data.folder / "data/sub/tiny.clf";
+  const auto loaded = load_dataset(path.string(), data.dirs, data.catalog());
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+  EXPECT_EQ(loaded->name, "tiny");
+  EXPECT_TRUE(loaded->relations.has_value());
+  EXPECT_EQ(loaded->log.truth->size(), 1U);
+  EXPECT_EQ(loaded->world_file, data.folder / "data/sub/tiny.truth.toml");
+}
+
+TEST(LoadDataset, OtherBytesUnderAKnownNameAreRefusedUnlessAskedFor) {
+  const TinyData data;
+  data.folder.write("data/sub/tiny.clf", std::string(kScans) + "# more\n");
+  const auto refused = load_dataset("tiny", data.dirs, data.catalog());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().to_line().find("SHA-256"), std::string::npos);
+  LoadOptions options;
+  options.accept_other_checksum = true;
+  const auto loaded = load_dataset("tiny", data.dirs, data.catalog(), options);
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+  EXPECT_NE(loaded->log.provenance.notes.back().find("accepted on request"), std::string::npos);
+}
+
+TEST(LoadDataset, TruthThatIsMissingIsAnErrorNotALogWithoutTruth) {
+  const TinyData data;
+  std::filesystem::remove(data.folder / "data/sub/tiny.relations");
+  const auto loaded = load_dataset("tiny", data.dirs, data.catalog());
+  ASSERT_FALSE(loaded.has_value());
+  EXPECT_EQ(loaded.error().code, ErrorCode::kNotFound);
+}
+
+TEST(LoadDataset, SaysWhatItLookedForAndWhere) {
+  const TinyData data;
+  const auto unknown = load_dataset("tinny", data.dirs, data.catalog());
+  EXPECT_NE(unknown.error().to_line().find("'tinny' is neither a data set nor a log file"),
+            std::string::npos);
+  EXPECT_NE(unknown.error().to_line().find("one of: tiny"), std::string::npos);
+  DataDirs nowhere;
+  nowhere.folders = {data.folder / "elsewhere"};
+  const auto missing = load_dataset("tiny", nowhere, data.catalog());
+  EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
+  EXPECT_NE(missing.error().to_line().find("elsewhere"), std::string::npos);
+  EXPECT_NE(missing.error().to_line().find("source: here"), std::string::npos);
+}
+
+TEST(LoadDataset, AFormatThatIsNotReadableIsSaidToBeSo) {
+  const TinyData data;
+  Catalog catalog = data.catalog();
+  catalog.entries[0].format = "lcm";
+  const auto loaded = load_dataset("tiny", data.dirs, catalog);
+  ASSERT_FALSE(loaded.has_value());
+  EXPECT_EQ(loaded.error().code, ErrorCode::kUnsupported);
+}
+
+TEST(LoadDataset, StepsBackInTimeAreKeptOnlyOnRequest) {
+  const ScratchFolder folder;
+  const auto path = folder.write("a.clf",
+                                 "FLASER 2 1 2 0 0 0 0 0 0 1.5 h 1.5\n"
+                                 "FLASER 2 1 2 0 0 0 0 0 0 1.0 h 1.0\n");
+  EXPECT_FALSE(load_dataset(path.string(), {}, Catalog{}).has_value());
+  LoadOptions options;
+  options.order = formats::StampOrder::kFile;
+  const auto loaded = load_dataset(path.string(), {}, Catalog{}, options);
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+  EXPECT_EQ(loaded->log.num_scans(), 2U);
+}
+
+TEST(ListDatasets, SaysWhatWasFoundWhere) {
+  const TinyData data;
+  Catalog catalog = data.catalog();
+  catalog.entries.push_back(catalog.entries[0]);
+  catalog.entries[1].name = "other";
+  catalog.entries[1].files[0].path = "other.clf";
+  const auto rows = list_datasets(catalog, data.dirs);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_TRUE(rows[0].is_found);
+  EXPECT_EQ(rows[0].path, data.folder / "data/sub/tiny.clf");
+  EXPECT_EQ(to_text(rows[0].truth), "relations");
+  EXPECT_FALSE(rows[1].is_found);
+}
+
+TEST(VerifyDataset, TellsMatchingFromDifferentFromMissing) {
+  const TinyData data;
+  const Catalog catalog = data.catalog();
+  const auto statuses = [&] {
+    std::vector<FileStatus> found;
+    const auto verified = verify_dataset(catalog, "tiny", data.dirs);
+    for (const VerifiedFile& file : *verified) found.push_back(file.status);
+    return found;
+  };
+  EXPECT_EQ(statuses(), (std::vector{FileStatus::kMatches, FileStatus::kMatches}));
+  data.folder.write("data/sub/tiny.relations", "1 2 3\n");
+  EXPECT_EQ(statuses(), (std::vector{FileStatus::kMatches, FileStatus::kDiffers}));
+  std::filesystem::remove(data.folder / "data/sub/tiny.clf");
+  EXPECT_EQ(statuses(), (std::vector{FileStatus::kMissing, FileStatus::kMissing}));
+  EXPECT_FALSE(verify_dataset(catalog, "none", data.dirs).has_value());
+}
+
+// Environment variables are the process's: each test sets what it needs and puts it back.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    setenv(name, value.c_str(), 1);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+  ~Environment() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+TEST(DataDirs, AreSearchedInTheDocumentedOrder) {
+  const Environment data("CORRIDOR_BENCH_DATA", "/data");
+  const Environment cache("XDG_CACHE_HOME", "/cache");
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_EQ(standard_data_dirs("/option").folders,
+            (Paths{"/option", "/data", "/cache/corridor-bench", "/usr/share/mrpt/datasets"}));
+  const Environment no_data("CORRIDOR_BENCH_DATA", "");
+  const Environment no_cache("XDG_CACHE_HOME", "");
+  const Environment home("HOME", "/home/user");
+  EXPECT_EQ(standard_data_dirs().folders,
+            (Paths{"/home/user/.cache/corridor-bench", "/usr/share/mrpt/datasets"}));
+}
+
+// Every catalogued log that this machine has loads by its name, with the bytes of the catalogue.
+TEST(Catalog, EveryReadableDatasetThatIsFoundLoads) {
+  const auto catalog =
+      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
+  ASSERT_TRUE(catalog.has_value());
+  const DataDirs dirs = standard_data_dirs();
+  std::size_t num_loaded = 0;
+  for (const DatasetRow& row : list_datasets(*catalog, dirs)) {
+    if (!row.is_found || !row.is_readable) continue;
+    const auto loaded = load_dataset(row.name, dirs, *catalog);
+    ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+    EXPECT_EQ(loaded->relations.has_value(), row.truth == TruthKind::kRelations) << row.name;
+    EXPECT_EQ(loaded->log.truth.has_value(), row.truth == TruthKind::kTum) << row.name;
+    for (const std::string& note : loaded->log.provenance.notes) {
+      EXPECT_EQ(note.find("robot model"), std::string::npos) << row.name << ": " << note;
+    }
+    ++num_loaded;
+  }
+  if (num_loaded == 0) GTEST_SKIP() << "no data found; set $CORRIDOR_BENCH_DATA to their folder";
+}
+
+}  // namespace
+}  // namespace corridor::catalog
