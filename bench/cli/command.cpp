@@ -1,0 +1,55 @@
+#include "bench/cli/command.hpp"
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <system_error>
+
+namespace corridor::cli {
+
+void CommonOptions::add_to(CLI::App& command) {
+  command.add_option("--data-dir", data_dir, "Folder that is searched for data sets first")
+      ->type_name("DIR");
+  command.add_flag("--quiet", is_quiet, "Print results and errors only");
+}
+
+std::optional<std::filesystem::path> CommonOptions::data_path() const {
+  if (data_dir.empty()) return std::nullopt;
+  return std::filesystem::absolute(data_dir);
+}
+
+catalog::DataDirs CommonOptions::data_dirs() const {
+  return catalog::standard_data_dirs(data_path());
+}
+
+void CommonOptions::say(const std::string& line) const {
+  if (!is_quiet) std::puts(line.c_str());
+}
+
+Result<void> check_parent_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) return {};
+  return fail(ErrorCode::kNotFound, "the folder does not exist", folder.string(),
+              "an existing folder for " + file.filename().string());
+}
+
+std::string text_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line += row[i];
+      if (i + 1 < row.size()) line.append(widths[i] - row[i].size() + 2, ' ');
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace corridor::cli

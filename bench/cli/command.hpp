@@ -1,0 +1,46 @@
+// What the commands of the program share. Each command is a plain struct: add_to() declares its
+// options, run() does the work when it was given.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/catalog/catalog.hpp"
+#include "slam/core/result.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace corridor::cli {
+
+// Options of every command.
+struct CommonOptions {
+  std::string data_dir;
+  bool is_quiet = false;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] std::optional<std::filesystem::path> data_path() const;
+  [[nodiscard]] catalog::DataDirs data_dirs() const;
+  // Standard output, unless quiet.
+  void say(const std::string& line) const;
+};
+
+// Writes a report on run directories into a folder. Handed in by main(), the one place that knows
+// of reports.
+using ReportWriter = std::function<Result<void>(const std::vector<std::filesystem::path>& run_dirs,
+                                                const std::filesystem::path& out)>;
+
+// The exit code of a command that ran.
+using ExitCode = int;
+
+// Fails with a clear Error if the folder of a file to be written does not exist.
+Result<void> check_parent_folder(const std::filesystem::path& file);
+
+// Columns padded with blanks, as wide as needed; the first row is the head.
+std::string text_table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace corridor::cli

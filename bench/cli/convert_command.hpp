@@ -1,0 +1,19 @@
+// corridor-bench convert IN OUT: between log formats, saying what the target cannot hold.
+#pragma once
+
+#include <string>
+
+#include "bench/cli/command.hpp"
+
+namespace corridor::cli {
+
+struct ConvertCommand {
+  CommonOptions common;
+  std::string in;
+  std::string out;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] Result<ExitCode> run() const;
+};
+
+}  // namespace corridor::cli

@@ -1,0 +1,206 @@
+#include "bench/cli/list_command.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/results/result_keys.hpp"
+#include "bench/runner/back_ends.hpp"
+#include "bench/runner/exit_code.hpp"
+#include "bench/runner/suite.hpp"
+#include "bench/runner/systems.hpp"
+#include "datasets/simulation/scenario.hpp"
+#include "slam/core/stage_clock.hpp"
+
+namespace corridor::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One array of objects, and which of their keys the text form shows.
+struct Listing {
+  Json items = Json::array();
+  std::vector<std::string> columns;
+};
+
+Json names_of(const std::vector<runner::ProfileInfo>& profiles) {
+  Json names = Json::array();
+  for (const auto& profile : profiles) names.push_back(profile.name);
+  return names;
+}
+
+Result<Listing> list_systems(const CommonOptions&) {
+  Listing listing{Json::array(), {"name", "profiles", "backend", "needs_imu", "description"}};
+  for (const runner::SystemInfo& info : runner::systems()) {
+    listing.items.push_back(
+        {{"name", info.name},
+         {"description", info.description},
+         {"profiles", names_of(info.profiles)},
+         {"backend", info.default_backend ? Json(*info.default_backend) : Json(nullptr)},
+         {"needs_imu", info.needs_imu},
+         {"is_stochastic", info.is_stochastic}});
+  }
+  return listing;
+}
+
+Json parameters_of(const runner::SystemInfo& info, const std::string& profile) {
+  Json parameters = Json::array();
+  for (const ParamRow& row : info.param_table(profile)) {
+    parameters.push_back({{"name", row.name},
+                          {"type", row.type},
+                          {"value", row.value},
+                          {"unit", row.unit},
+                          {"range", row.range},
+                          {"meaning", row.meaning}});
+  }
+  return parameters;
+}
+
+Result<Listing> list_profiles(const CommonOptions&) {
+  Listing listing{Json::array(), {"name", "description"}};
+  for (const runner::SystemInfo& info : runner::systems()) {
+    for (const runner::ProfileInfo& profile : info.profiles) {
+      listing.items.push_back({{"name", info.name + "@" + profile.name},
+                               {"system", info.name},
+                               {"profile", profile.name},
+                               {"description", profile.description},
+                               {"parameters", parameters_of(info, profile.name)}});
+    }
+  }
+  return listing;
+}
+
+Result<Listing> list_backends(const CommonOptions&) {
+  Listing listing{Json::array(), {"name", "description"}};
+  for (const runner::BackEndInfo& info : runner::back_ends()) {
+    listing.items.push_back({{"name", info.name}, {"description", info.description}});
+  }
+  return listing;
+}
+
+Result<Listing> list_datasets(const CommonOptions& common) {
+  const Result<catalog::Catalog> known = catalog::read_catalog();
+  if (!known) return tl::make_unexpected(known.error());
+  Listing listing{Json::array(), {"name", "format", "truth", "is_found", "title"}};
+  for (const catalog::DatasetRow& row : catalog::list_datasets(*known, common.data_dirs())) {
+    listing.items.push_back({{"name", row.name},
+                             {"title", row.title},
+                             {"format", row.format},
+                             {"truth", catalog::to_text(row.truth)},
+                             {"is_found", row.is_found},
+                             {"is_readable", row.is_readable},
+                             {"path", row.is_found ? Json(row.path.string()) : Json(nullptr)},
+                             {"licence", row.licence},
+                             {"source", row.source}});
+  }
+  return listing;
+}
+
+Result<Listing> list_scenarios(const CommonOptions&) {
+  Listing listing{Json::array(), {"name", "description"}};
+  for (const std::filesystem::path& path : simulation::list_scenarios()) {
+    const Result<simulation::Scenario> scenario = simulation::read_scenario(path);
+    if (!scenario) return tl::make_unexpected(scenario.error());
+    Json values = Json::object();
+    for (const auto& [key, value] : simulation::scenario_values(*scenario)) values[key] = value;
+    listing.items.push_back({{"name", scenario->name},
+                             {"description", scenario->description},
+                             {"path", path.string()},
+                             {"parameters", values}});
+  }
+  return listing;
+}
+
+Result<Listing> list_suites(const CommonOptions&) {
+  Listing listing{Json::array(), {"name", "description"}};
+  for (const std::filesystem::path& path : runner::list_suites()) {
+    const Result<runner::Suite> suite = runner::read_suite(path);
+    if (!suite) return tl::make_unexpected(suite.error());
+    Json systems = Json::array();
+    for (const auto& choice : suite->systems) {
+      systems.push_back(choice.system + "@" + choice.profile);
+    }
+    listing.items.push_back({{"name", suite->name},
+                             {"description", suite->description},
+                             {"path", path.string()},
+                             {"systems", systems},
+                             {"scenarios", suite->scenarios},
+                             {"datasets", suite->datasets},
+                             {"num_seeds", suite->num_seeds}});
+  }
+  return listing;
+}
+
+Result<Listing> list_metrics(const CommonOptions&) {
+  Listing listing{Json::array(), {"name", "unit", "meaning"}};
+  for (const results::ResultKey& key : results::result_keys()) {
+    if (!key.is_metric) continue;
+    listing.items.push_back({{"name", key.name}, {"unit", key.unit}, {"meaning", key.meaning}});
+  }
+  return listing;
+}
+
+Result<Listing> list_stages(const CommonOptions&) {
+  Listing listing{Json::array(), {"name"}};
+  for (const std::string_view name : kStageNames) listing.items.push_back({{"name", name}});
+  return listing;
+}
+
+using Lister = Result<Listing> (*)(const CommonOptions&);
+
+const std::map<std::string, Lister>& listers() {
+  static const std::map<std::string, Lister> all = {
+      {"systems", list_systems},   {"profiles", list_profiles},   {"backends", list_backends},
+      {"datasets", list_datasets}, {"scenarios", list_scenarios}, {"suites", list_suites},
+      {"metrics", list_metrics},   {"stages", list_stages}};
+  return all;
+}
+
+std::string cell_text(const Json& value) {
+  if (value.is_null()) return "-";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& element : value) {
+    if (!text.empty()) text += ",";
+    text += cell_text(element);
+  }
+  return text;
+}
+
+std::string to_text(const Listing& listing) {
+  std::vector<std::vector<std::string>> rows{listing.columns};
+  for (const Json& item : listing.items) {
+    std::vector<std::string>& row = rows.emplace_back();
+    for (const std::string& column : listing.columns) row.push_back(cell_text(item.at(column)));
+  }
+  return text_table(rows);
+}
+
+}  // namespace
+
+void ListCommand::add_to(CLI::App& command) {
+  std::vector<std::string> kinds;
+  for (const auto& [name, lister] : listers()) kinds.push_back(name);
+  command.add_option("what", what, "What to list")->required()->check(CLI::IsMember(kinds));
+  command.add_flag("--json", is_json, "One JSON document, with everything that is known");
+  common.add_to(command);
+}
+
+Result<ExitCode> ListCommand::run() const {
+  const Result<Listing> listing = listers().at(what)(common);
+  if (!listing) return tl::make_unexpected(listing.error());
+  const std::string text =
+      is_json ? listing->items.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
+              : to_text(*listing);
+  std::fputs(text.c_str(), stdout);
+  return runner::kExitDone;
+}
+
+}  // namespace corridor::cli

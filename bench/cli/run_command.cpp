@@ -1,0 +1,155 @@
+#include "bench/cli/run_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <cstdio>
+
+#include "bench/runner/back_ends.hpp"
+#include "bench/runner/exit_code.hpp"
+#include "bench/runner/plan.hpp"
+#include "bench/runner/run_plan.hpp"
+#include "datasets/simulation/scenario.hpp"
+
+namespace corridor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of runs without a suite.
+constexpr const char* kOwnRunName = "own";
+
+Result<fs::path> this_program() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  if (!error) return path;
+  return fail(ErrorCode::kInternal, "this program's own path is unknown", "/proc/self/exe");
+}
+
+// Simulated data are named like recorded ones, by the file or name of their scenario.
+bool is_scenario(const std::string& dataset) {
+  if (fs::path(dataset).extension() == ".toml") return true;
+  for (const fs::path& path : simulation::list_scenarios()) {
+    if (path.stem() == dataset) return true;
+  }
+  return false;
+}
+
+void replace_data(const std::vector<std::string>& datasets, runner::Suite& suite) {
+  suite.scenarios.clear();
+  suite.datasets.clear();
+  for (const std::string& dataset : datasets) {
+    (is_scenario(dataset) ? suite.scenarios : suite.datasets).push_back(dataset);
+  }
+}
+
+Result<ExitCode> finish(const runner::RunSummary& summary) {
+  if (summary.is_interrupted) {
+    std::fputs("corridor-bench: interrupted; --resume goes on where it stopped\n", stderr);
+    return runner::kExitNo;
+  }
+  return summary.num_failed == 0 ? runner::kExitDone : runner::kExitNo;
+}
+
+}  // namespace
+
+void RunCommand::add_to(CLI::App& command) {
+  command.add_option("suite", suite, "Name of a suite, or a suite's .toml file")
+      ->type_name("SUITE");
+  command.add_option("--out", out, "Folder of the results (default: reports/out/SUITE)")
+      ->type_name("DIR");
+  command.add_option("--jobs", num_jobs, "Cases at a time (default: 1, for undisturbed times)")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--seeds", num_seeds, "Number of seeds instead of the suite's")
+      ->check(CLI::Range(1, 100000));
+  command.add_option("--seed", first_seed, "First seed instead of the suite's");
+  command.add_option("--system", systems, "System, S or S@PROFILE, instead of the suite's; repeat")
+      ->type_name("S[@PROFILE]");
+  command.add_option("--backend", backends, "Back-end instead of the systems' own; repeat");
+  command.add_option("--dataset", datasets,
+                     "Data set, log file or scenario instead of the suite's; repeat");
+  command.add_option("--set", overrides, "Parameter of a system; repeat")
+      ->type_name("SYSTEM.key=value");
+  command.add_flag("--resume", is_resumed,
+                   "Keep cases in DIR that are finished and were run by this revision");
+  command.add_flag("--no-report", has_no_report, "Leave out tables, figures and page");
+  command.add_option("--executor", executor, "local: processes on this machine");
+  common.add_to(command);
+}
+
+Result<runner::Suite> RunCommand::requested_suite() const {
+  runner::Suite requested;
+  requested.name = kOwnRunName;
+  if (!suite.empty()) {
+    const Result<fs::path> path = runner::find_suite(suite);
+    if (!path) return tl::make_unexpected(path.error());
+    Result<runner::Suite> read = runner::read_suite(*path);
+    if (!read) return read;
+    requested = std::move(*read);
+  } else if (systems.empty() || datasets.empty()) {
+    return fail(ErrorCode::kInvalid, "neither a suite nor both --system and --dataset are given",
+                "run", "SUITE, or --system S --dataset FILE");
+  }
+  if (!systems.empty()) requested.systems.clear();
+  for (const std::string& text : systems) {
+    const Result<runner::SystemChoice> choice = runner::parse_system_choice(text);
+    if (!choice) return tl::make_unexpected(choice.error());
+    requested.systems.push_back(*choice);
+  }
+  for (const std::string& name : backends) {
+    const Result<void> known = runner::check_back_end(name);
+    if (!known) return tl::make_unexpected(known.error());
+  }
+  if (!backends.empty()) requested.backends = backends;
+  if (!datasets.empty()) replace_data(datasets, requested);
+  if (num_seeds) requested.num_seeds = *num_seeds;
+  if (first_seed) requested.first_seed = *first_seed;
+  const Result<void> added = runner::add_overrides(requested, overrides);
+  if (!added) return tl::make_unexpected(added.error());
+  return requested;
+}
+
+Result<ExitCode> RunCommand::run(const ReportWriter& write_report) const {
+  if (executor != "local") {
+    return fail(ErrorCode::kUnsupported, fmt::format("executor \"{}\" is not known", executor),
+                "--executor", "local");
+  }
+  const Result<runner::Suite> requested = requested_suite();
+  if (!requested) return tl::make_unexpected(requested.error());
+  const Result<runner::Plan> plan =
+      runner::make_plan(*requested, common.data_dirs(), {!datasets.empty()});
+  if (!plan) return tl::make_unexpected(plan.error());
+  if (plan->cases.empty()) {
+    return fail(ErrorCode::kNotFound,
+                fmt::format("no case can be run: {}", fmt::join(plan->skipped, "; ")),
+                requested->name, "data that can be found; see --data-dir");
+  }
+  const Result<fs::path> program = this_program();
+  if (!program) return tl::make_unexpected(program.error());
+
+  runner::RunOptions options;
+  options.out =
+      fs::absolute(out.empty() ? fs::path("reports/out") / requested->name : fs::path(out));
+  options.executable = *program;
+  options.data_dir = common.data_path();
+  options.num_jobs = num_jobs;
+  options.is_resumed = is_resumed;
+  options.is_quiet = common.is_quiet;
+  options.is_terminal = isatty(STDOUT_FILENO) != 0;
+  const Result<runner::RunSummary> summary = runner::run_plan(*plan, options);
+  if (!summary) return tl::make_unexpected(summary.error());
+  if (!has_no_report && !summary->is_interrupted) {
+    const Result<void> written = write_report({options.out}, options.out);
+    if (!written) return tl::make_unexpected(written.error());
+  }
+  common.say(fmt::format("{} cases, {} kept from before, {} failed: {}", summary->num_cases,
+                         summary->num_kept, summary->num_failed, options.out.string()));
+  return finish(*summary);
+}
+
+}  // namespace corridor::cli

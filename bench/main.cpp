@@ -1,0 +1,125 @@
+// The program corridor-bench: takes the command line apart and starts the command.
+// Errors go to stderr in one line; the exit codes are those of bench/runner/exit_code.hpp.
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/cli/convert_command.hpp"
+#include "bench/cli/data_command.hpp"
+#include "bench/cli/evaluate_command.hpp"
+#include "bench/cli/list_command.hpp"
+#include "bench/cli/report_command.hpp"
+#include "bench/cli/run_case_command.hpp"
+#include "bench/cli/run_command.hpp"
+#include "bench/cli/simulate_command.hpp"
+#include "bench/runner/exit_code.hpp"
+#include "bench/runner/git_revision.hpp"
+#include "reports/report.hpp"
+
+namespace {
+
+using corridor::Result;
+using corridor::cli::ExitCode;
+
+// One line, whatever is in the text.
+void print_error(std::string text) {
+  std::replace(text.begin(), text.end(), '\r', ' ');
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) {
+    text.replace(at, 1, "; ");
+  }
+  std::fprintf(stderr, "corridor-bench: %s\n", text.c_str());
+}
+
+struct Commands {
+  corridor::cli::ListCommand list;
+  corridor::cli::RunCommand run;
+  corridor::cli::RunCaseCommand run_case;
+  corridor::cli::SimulateCommand simulate;
+  corridor::cli::ConvertCommand convert;
+  corridor::cli::EvaluateCommand evaluate;
+  corridor::cli::ReportCommand report;
+  corridor::cli::DataListCommand data_list;
+  corridor::cli::DataVerifyCommand data_verify;
+};
+
+using Action = std::function<Result<ExitCode>()>;
+
+// Declares every command; returns what each of them does.
+std::vector<std::pair<const CLI::App*, Action>> declare(CLI::App& app, Commands& c) {
+  std::vector<std::pair<const CLI::App*, Action>> actions;
+  const auto add = [&](CLI::App& parent, const char* name, const char* help, auto& command,
+                       Action action) {
+    CLI::App* sub = parent.add_subcommand(name, help);
+    command.add_to(*sub);
+    actions.emplace_back(sub, std::move(action));
+  };
+  add(app, "list", "What this program knows by name", c.list, [&c] { return c.list.run(); });
+  add(app, "run", "Run a suite, or systems on your own logs, and write the report", c.run,
+      [&c] { return c.run.run(corridor::reports::write_report); });
+  add(app, "run-case", "Run one case in this process", c.run_case,
+      [&c] { return c.run_case.run(); });
+  add(app, "simulate", "Write a simulated log and its truth", c.simulate,
+      [&c] { return c.simulate.run(); });
+  add(app, "convert", "Convert a log to another format, saying what is lost", c.convert,
+      [&c] { return c.convert.run(); });
+  add(app, "evaluate", "Score a trajectory and a map from files", c.evaluate,
+      [&c] { return c.evaluate.run(); });
+  add(app, "report", "Write tables, figures and page from finished runs", c.report,
+      [&c] { return c.report.run(corridor::reports::write_report); });
+  CLI::App* data = app.add_subcommand("data", "Data sets on this machine");
+  data->require_subcommand(1);
+  add(*data, "list", "Known data sets, and which are here", c.data_list,
+      [&c] { return c.data_list.run(); });
+  add(*data, "verify", "Compare data sets with the catalogue's checksums", c.data_verify,
+      [&c] { return c.data_verify.run(); });
+  return actions;
+}
+
+// Help and version are answers on stdout, everything else is a wrong request.
+int answer_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);
+  print_error(std::string(error.what()) + "; see --help");
+  return corridor::runner::kExitBadRequest;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Corridor Bench: compares SLAM systems and back-ends on identical data",
+               "corridor-bench");
+  app.set_version_flag("--version", "corridor-bench " + corridor::runner::git_revision());
+  app.require_subcommand(1);
+  Commands commands;
+  const auto actions = declare(app, commands);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return answer_parse_error(app, error);
+  }
+  for (const auto& [command, action] : actions) {
+    if (!command->parsed()) continue;
+    const Result<ExitCode> code = action();
+    if (code) return *code;
+    print_error(code.error().to_line());
+    return corridor::runner::kExitBadRequest;
+  }
+  return corridor::runner::kExitBadRequest;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+    return corridor::runner::kExitOutOfMemory;
+  }
+}

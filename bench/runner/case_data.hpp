@@ -1,0 +1,28 @@
+// The data of a case, simulated or loaded, with everything that is known for scoring.
+// A system is shown the events and the robot model only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/runner/case_spec.hpp"
+#include "datasets/catalog/catalog.hpp"
+#include "datasets/formats/relations.hpp"
+#include "datasets/simulation/truth.hpp"
+#include "datasets/simulation/world.hpp"
+#include "slam/core/result.hpp"
+#include "slam/core/sensor_log.hpp"
+
+namespace corridor::runner {
+
+struct CaseData {
+  SensorLog log;  // truth of its own
+  std::vector<formats::Relation> relations;
+  std::optional<simulation::World> world;
+  std::optional<simulation::SimulationTruth> simulation_truth;
+};
+
+Result<CaseData> load_case_data(const CaseSpec& spec, const catalog::DataDirs& dirs);
+
+}  // namespace corridor::runner

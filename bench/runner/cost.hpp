@@ -1,0 +1,16 @@
+// Where the time of a run went, from its stage clock, as percentiles that were really measured.
+#pragma once
+
+#include "bench/results/run_result.hpp"
+#include "bench/runner/drive.hpp"
+#include "slam/core/stage_clock.hpp"
+
+namespace corridor::runner {
+
+// Fills stages, step_*, wall_s, cpu_s, peak_rss_mib and realtime_factor. The step_* times are those
+// of the steps that took a scan: with all the cheap inertial samples counted in, no percentile
+// would show a scan. Stages that were never entered are left out.
+void score_cost(const Drive& run, const StageClock& clock, double log_duration_s,
+                results::RunResult& result);
+
+}  // namespace corridor::runner

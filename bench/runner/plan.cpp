@@ -1,0 +1,141 @@
+#include "bench/runner/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "bench/results/digest.hpp"
+#include "bench/runner/systems.hpp"
+#include "datasets/simulation/scenario.hpp"
+
+namespace corridor::runner {
+namespace {
+
+// One source of data, looked at once.
+struct DataItem {
+  DataKind kind = DataKind::kSimulated;
+  std::string name;
+  std::string source;
+  std::string digest;
+  bool has_imu = true;
+};
+
+Result<DataItem> scenario_item(const std::string& source) {
+  const Result<std::filesystem::path> path = simulation::find_scenario(source);
+  if (!path) return tl::make_unexpected(path.error());
+  const Result<simulation::Scenario> scenario = simulation::read_scenario(*path);
+  if (!scenario) return tl::make_unexpected(scenario.error());
+  // A path is made absolute: a case may run from another folder.
+  const bool is_path = std::filesystem::path(source).extension() == ".toml";
+  std::string values;
+  for (const auto& [key, value] : simulation::scenario_values(*scenario)) {
+    values += key + " = " + value + "\n";
+  }
+  return DataItem{DataKind::kSimulated, scenario->name,
+                  is_path ? std::filesystem::absolute(*path).string() : source,
+                  results::short_digest(values), true};
+}
+
+Result<DataItem> dataset_item(const std::string& source, const catalog::DataDirs& dirs) {
+  const Result<catalog::LoadedDataset> loaded = catalog::load_dataset(source, dirs);
+  if (!loaded) return tl::make_unexpected(loaded.error());
+  const bool is_name = loaded->name == source;
+  return DataItem{DataKind::kRecorded, loaded->name,
+                  is_name ? source : std::filesystem::absolute(source).string(), loaded->sha256,
+                  loaded->log.num_imu_samples() > 0};
+}
+
+class Planner {
+ public:
+  Planner(const Suite& suite, const PlanOptions& options) : suite_(suite), options_(options) {}
+
+  Result<Plan> plan(const catalog::DataDirs& dirs) {
+    for (const std::string& source : suite_.scenarios) {
+      const Result<DataItem> item = scenario_item(source);
+      if (!item) return tl::make_unexpected(item.error());
+      add_simulated(*item);
+    }
+    for (const std::string& source : suite_.datasets) {
+      const Result<DataItem> item = dataset_item(source, dirs);
+      if (item) {
+        add_recorded(*item);
+      } else if (options_.must_load_data) {
+        return tl::make_unexpected(item.error());
+      } else if (item.error().code == ErrorCode::kNotFound) {
+        plan_.skipped.push_back(fmt::format("{}: skipped: {}", source, item.error().to_line()));
+      } else {
+        // Broken data are a row of every system, not a gap.
+        add_recorded({DataKind::kRecorded, source, source, "", true});
+      }
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  void add_simulated(const DataItem& item) {
+    for (int i = 0; i < suite_.num_seeds; ++i) {
+      const std::uint64_t seed = suite_.first_seed + static_cast<std::uint64_t>(i);
+      for (const SystemChoice& choice : suite_.systems) add(item, choice, seed, seed);
+    }
+  }
+
+  void add_recorded(const DataItem& item) {
+    for (int i = 0; i < suite_.num_seeds; ++i) {
+      const std::uint64_t seed = suite_.first_seed + static_cast<std::uint64_t>(i);
+      for (const SystemChoice& choice : suite_.systems) {
+        const bool is_stochastic = find_system(choice.system)->is_stochastic;
+        if (i == 0 || is_stochastic) add(item, choice, std::nullopt, seed);
+      }
+    }
+  }
+
+  void add(const DataItem& item, const SystemChoice& choice, std::optional<std::uint64_t> data_seed,
+           std::uint64_t system_seed) {
+    const Result<SystemInfo> info = find_system(choice.system);
+    if (info->needs_imu && !item.has_imu) {
+      const std::string line = fmt::format("{} on {}: skipped: needs an IMU, and the log has none",
+                                           choice.system, item.name);
+      if (plan_.skipped.empty() || plan_.skipped.back() != line) plan_.skipped.push_back(line);
+      return;
+    }
+    CaseSpec spec;
+    spec.suite = suite_.name;
+    spec.system = choice.system;
+    spec.profile = choice.profile;
+    if (const auto found = suite_.overrides.find(choice.system); found != suite_.overrides.end()) {
+      spec.overrides = found->second;
+    }
+    spec.data_kind = item.kind;
+    spec.dataset = item.name;
+    spec.data_source = item.source;
+    spec.data_seed = data_seed;
+    spec.system_seed = system_seed;
+    spec.threads = suite_.threads;
+    spec.limits = suite_.limits;
+    spec.data_digest = item.digest;
+    if (!info->default_backend || suite_.backends.empty()) {
+      spec.backend = info->default_backend;
+      plan_.cases.push_back(spec);
+      return;
+    }
+    for (const std::string& backend : suite_.backends) {
+      spec.backend = backend;
+      plan_.cases.push_back(spec);
+    }
+  }
+
+  const Suite& suite_;
+  PlanOptions options_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Result<Plan> make_plan(const Suite& suite, const catalog::DataDirs& dirs,
+                       const PlanOptions& options) {
+  return Planner(suite, options).plan(dirs);
+}
+
+}  // namespace corridor::runner

@@ -1,0 +1,51 @@
+#include "bench/runner/process_clock.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace corridor::runner {
+namespace {
+
+constexpr double kKibPerMib = 1024.0;
+constexpr double kBytesPerMib = 1024.0 * 1024.0;
+
+}  // namespace
+
+double process_cpu_s() {
+  constexpr double kNanoseconds = 1e-9;
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + kNanoseconds * static_cast<double>(now.tv_nsec);
+}
+
+void reset_peak_rss() {
+  // proc(5): writing 5 sets VmHWM to the present size.
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+// VmHWM belongs to the address space. getrusage()'s ru_maxrss would not do: it survives exec() and
+// shows the parent's size of the moment of the fork.
+std::optional<double> peak_rss_mib() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double size_kib = 0;
+    if (word == "VmHWM:" && status >> size_kib) return size_kib / kKibPerMib;
+    status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return std::nullopt;
+}
+
+std::optional<double> resident_mib(pid_t process) {
+  std::ifstream statm(fmt::format("/proc/{}/statm", process));
+  double num_pages_virtual = 0;
+  double num_pages_resident = 0;
+  if (!(statm >> num_pages_virtual >> num_pages_resident)) return std::nullopt;
+  return num_pages_resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / kBytesPerMib;
+}
+
+}  // namespace corridor::runner

@@ -1,0 +1,188 @@
+#include "bench/runner/run_case.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/score_case.hpp"
+#include "bench/results/digest.hpp"
+#include "bench/results/machine.hpp"
+#include "bench/runner/case_data.hpp"
+#include "bench/runner/case_files.hpp"
+#include "bench/runner/cost.hpp"
+#include "bench/runner/detection.hpp"
+#include "bench/runner/drive.hpp"
+#include "bench/runner/git_revision.hpp"
+#include "bench/runner/systems.hpp"
+#include "slam/mapping/occupancy_mapper.hpp"
+
+namespace corridor::runner {
+namespace {
+
+using results::CaseStatus;
+using results::RunResult;
+
+Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const CaseData& data) {
+  const Result<SystemInfo> info = find_system(spec.system);
+  if (!info) return tl::make_unexpected(info.error());
+  if (info->needs_imu && data.log.num_imu_samples() == 0) {
+    return fail(ErrorCode::kInvalid, fmt::format("system {} needs an IMU", spec.system),
+                spec.dataset, "a log with inertial samples");
+  }
+  return info->make(
+      {spec.profile, spec.overrides, spec.backend, data.log.robot, spec.system_seed, spec.threads});
+}
+
+// The map that one common mapper makes of a trajectory: every scan at its pose, scans without a
+// pose left out.
+GridMap render_map(const SensorLog& log, const Trajectory& trajectory) {
+  std::vector<mapping::PosedScan> scans;
+  for (const SensorEvent& event : log.events) {
+    const auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    const std::optional<Pose2> T_map_base = trajectory.interpolate(scan->stamp);
+    if (T_map_base) scans.push_back({*T_map_base, scan});
+  }
+  return mapping::build_occupancy_map(scans, mapping::OccupancyMapperParams{});
+}
+
+std::vector<Timestamp> scan_stamps(const SensorLog& log) {
+  std::vector<Timestamp> stamps;
+  for (const SensorEvent& event : log.events) {
+    if (std::holds_alternative<LaserScan>(event)) stamps.push_back(stamp_of(event));
+  }
+  return stamps;
+}
+
+// Range of the map's scoring: what the sensor may have seen.
+double lidar_range_m(const CaseData& data) {
+  return data.simulation_truth && data.simulation_truth->range_max_m > 0
+             ? data.simulation_truth->range_max_m
+             : data.log.robot.lidar.range_max_m;
+}
+
+// Remarks for the reader of the scores.
+std::vector<std::string> score(const CaseData& data, const Drive& run,
+                               const std::optional<GridMap>& rendered_map, RunResult& result) {
+  const std::vector<Timestamp> stamps = scan_stamps(data.log);
+  metrics::CaseEvidence evidence;
+  evidence.online_trajectory = &run.online;
+  if (run.estimate) {
+    evidence.final_trajectory = &run.estimate->trajectory;
+    if (run.estimate->map) evidence.own_map = &*run.estimate->map;
+  }
+  if (rendered_map) evidence.rendered_map = &*rendered_map;
+  evidence.scan_stamps = stamps;
+  if (data.log.truth) evidence.truth_world = &*data.log.truth;
+  evidence.relations = data.relations;
+  if (data.world) evidence.world = &*data.world;
+  evidence.lidar_range_m = lidar_range_m(data);
+  std::vector<std::string> remarks = metrics::score_case(evidence, {}, result);
+  if (data.simulation_truth) score_detection(run.health, *data.simulation_truth, result);
+  return remarks;
+}
+
+std::optional<std::int64_t> whole(const std::map<std::string, double>& counters,
+                                  const std::string& name) {
+  const auto found = counters.find(name);
+  if (found == counters.end()) return std::nullopt;
+  return static_cast<std::int64_t>(found->second);
+}
+
+void take_counters(const SlamEstimate& estimate, RunResult& result) {
+  result.counters = estimate.counters;
+  result.factors = whole(estimate.counters, "factors");
+  result.variables = whole(estimate.counters, "variables");
+  result.relinearised = whole(estimate.counters, "relinearised");
+  if (const auto chi2 = estimate.counters.find("chi2"); chi2 != estimate.counters.end()) {
+    result.chi2 = chi2->second;
+  }
+}
+
+void settle_status(const Drive& run, RunResult& result) {
+  result.status = run.status;
+  result.status_message = run.status_message;
+  if (run.status != CaseStatus::kOk || !result.poses_expected || !result.poses_matched) return;
+  if (*result.poses_matched < *result.poses_expected) {
+    result.status = CaseStatus::kPartial;
+    result.status_message =
+        fmt::format("{} of {} poses are missing", *result.poses_expected - *result.poses_matched,
+                    *result.poses_expected);
+  }
+}
+
+std::string log_text(const CaseData& data, const std::vector<std::string>& remarks,
+                     const RunResult& result) {
+  std::string text = fmt::format(
+      "case {}\nsystem {}@{} seed {}\ndata {} ({}, {}): {} scans, {} wheel samples, {} inertial "
+      "samples, {:.1f} s\n",
+      result.case_id, result.system, result.profile, result.system_seed, result.dataset,
+      data.log.provenance.format, data.log.provenance.source, data.log.num_scans(),
+      data.log.num_wheel_samples(), data.log.num_imu_samples(), data.log.duration_s());
+  for (const std::string& note : data.log.provenance.notes) text += "data note: " + note + "\n";
+  for (const std::string& remark : remarks) text += "score note: " + remark + "\n";
+  for (const auto& [name, value] : result.counters) text += fmt::format("{} {}\n", name, value);
+  text += fmt::format("status {}{}{}\n", to_text(result.status),
+                      result.status_message.empty() ? "" : ": ", result.status_message);
+  return text;
+}
+
+}  // namespace
+
+RunResult record_of(const CaseSpec& spec) {
+  RunResult result;
+  result.case_id = case_id(spec);
+  result.suite = spec.suite;
+  result.system = spec.system;
+  result.profile = spec.profile;
+  result.backend = spec.backend;
+  result.dataset = spec.dataset;
+  result.data_seed = spec.data_seed;
+  result.system_seed = spec.system_seed;
+  result.threads = spec.threads;
+  result.git_revision = git_revision();
+  result.machine_id = results::this_machine().machine_id;
+  if (const Result<SystemInfo> info = find_system(spec.system)) {
+    const Result<ParamValues> values = info->resolve(spec.profile, spec.overrides);
+    if (values) result.parameters = *values;
+  }
+  std::string text;
+  for (const auto& [name, value] : result.parameters) text += name + " = " + value + "\n";
+  result.parameters_hash = results::short_digest(text);
+  return result;
+}
+
+Result<RunResult> run_case(const CaseSpec& spec, const catalog::DataDirs& dirs,
+                           const std::filesystem::path& out) {
+  const Result<CaseData> data = load_case_data(spec, dirs);
+  if (!data) return tl::make_unexpected(data.error());
+  const Result<std::unique_ptr<SlamSystem>> system = make_system(spec, *data);
+  if (!system) return tl::make_unexpected(system.error());
+
+  const Drive run = drive(**system, data->log);
+
+  RunResult result = record_of(spec);
+  std::optional<GridMap> rendered_map;
+  if (run.estimate) {
+    take_counters(*run.estimate, result);
+    rendered_map = render_map(data->log, run.estimate->trajectory);
+  }
+  const std::vector<std::string> remarks = score(*data, run, rendered_map, result);
+  score_cost(run, (*system)->stage_clock(), data->log.duration_s(), result);
+  settle_status(run, result);
+
+  const Result<void> written = write_folder_atomically(
+      case_folder(out, result.case_id), [&](const std::filesystem::path& folder) -> Result<void> {
+        const CaseOutput output{&*data, &run, system->get(),
+                                rendered_map ? &*rendered_map : nullptr};
+        if (auto done = write_output(folder, output); !done) return done;
+        return write_record(folder, spec, result, log_text(*data, remarks, result));
+      });
+  if (!written) return tl::make_unexpected(written.error());
+  return result;
+}
+
+}  // namespace corridor::runner

@@ -1,0 +1,222 @@
+#include "bench/runner/suite.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "bench/runner/back_ends.hpp"
+
+namespace corridor::runner {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxSeeds = 100'000;
+
+std::string join(const std::vector<std::string>& lines) {
+  return fmt::format("{}", fmt::join(lines, "; "));
+}
+
+// The text form that parameter overrides have.
+std::optional<std::string> scalar_text(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* flag = node.as_boolean()) return std::string(flag->get() ? "true" : "false");
+  return std::nullopt;
+}
+
+// Walks the file once and gathers everything that is wrong with it.
+class Parser {
+ public:
+  explicit Parser(const fs::path& path) : file_(path.string()) {}
+
+  Result<Suite> parse(const toml::table& table) {
+    for (const auto& [key, node] : table) take_key(key.str(), node);
+    if (suite_.name.empty()) problem(table, "key \"name\" is missing");
+    if (suite_.systems.empty()) problem(table, "key \"systems\" is missing or empty");
+    if (suite_.scenarios.empty() && suite_.datasets.empty()) {
+      problem(table, "neither \"scenarios\" nor \"datasets\" names any data");
+    }
+    check_overrides(table);
+    if (problems_.empty()) return suite_;
+    return fail(ErrorCode::kInvalid, join(problems_));
+  }
+
+ private:
+  void problem(const toml::node& node, const std::string& text) {
+    problems_.push_back(fmt::format("{}:{}: {}", file_, node.source().begin.line, text));
+  }
+
+  void take_key(std::string_view key, const toml::node& node) {
+    if (key == "name")
+      take_text(key, node, suite_.name);
+    else if (key == "description")
+      take_text(key, node, suite_.description);
+    else if (key == "systems")
+      take_systems(node);
+    else if (key == "backends")
+      take_backends(node);
+    else if (key == "scenarios")
+      suite_.scenarios = take_texts(key, node);
+    else if (key == "datasets")
+      suite_.datasets = take_texts(key, node);
+    else if (key == "first_seed")
+      take_integer(key, node, 0, suite_.first_seed);
+    else if (key == "num_seeds")
+      take_integer(key, node, 1, suite_.num_seeds);
+    else if (key == "threads")
+      take_integer(key, node, 1, suite_.threads);
+    else if (key == "limits")
+      take_limits(node);
+    else if (key == "overrides")
+      take_overrides(node);
+    else
+      problem(node, fmt::format("unknown key \"{}\" (known: name description systems backends "
+                                "scenarios datasets first_seed num_seeds threads limits overrides)",
+                                key));
+  }
+
+  void take_text(std::string_view key, const toml::node& node, std::string& text) {
+    if (const auto* value = node.as_string())
+      text = value->get();
+    else
+      problem(node, fmt::format("{}: expected a text", key));
+  }
+
+  std::vector<std::string> take_texts(std::string_view key, const toml::node& node) {
+    std::vector<std::string> texts;
+    const toml::array* array = node.as_array();
+    if (array == nullptr) {
+      problem(node, fmt::format("{}: expected an array of texts", key));
+      return texts;
+    }
+    for (const toml::node& element : *array) {
+      take_text(key, element, texts.emplace_back());
+      if (std::count(texts.begin(), texts.end(), texts.back()) > 1) {
+        problem(element, fmt::format("{}: \"{}\" is given twice", key, texts.back()));
+      }
+    }
+    return texts;
+  }
+
+  template <class T>
+  void take_integer(std::string_view key, const toml::node& node, std::int64_t min, T& value) {
+    const auto* number = node.as_integer();
+    const std::int64_t max = std::is_same_v<T, int> ? kMaxSeeds : INT64_MAX;
+    if (number == nullptr || number->get() < min || number->get() > max) {
+      problem(node, fmt::format("{}: expected an integer from {} to {}", key, min, max));
+    } else {
+      value = static_cast<T>(number->get());
+    }
+  }
+
+  void take_systems(const toml::node& node) {
+    for (const std::string& text : take_texts("systems", node)) {
+      const Result<SystemChoice> choice = parse_system_choice(text);
+      if (choice)
+        suite_.systems.push_back(*choice);
+      else
+        problem(node, choice.error().to_line());
+    }
+  }
+
+  void take_backends(const toml::node& node) {
+    for (const std::string& text : take_texts("backends", node)) {
+      const Result<void> known = check_back_end(text);
+      if (known)
+        suite_.backends.push_back(text);
+      else
+        problem(node, known.error().to_line());
+    }
+  }
+
+  void take_limits(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return problem(node, "limits: expected a table");
+    for (const auto& [key, value] : *table) {
+      if (key.str() == "time_s") {
+        const std::optional<double> time_s = value.value<double>();
+        if (time_s && *time_s > 0)
+          suite_.limits.time_s = *time_s;
+        else
+          problem(value, "limits.time_s: expected a number > 0");
+      } else if (key.str() == "memory_mib") {
+        take_integer("limits.memory_mib", value, 1, suite_.limits.memory_mib);
+      } else {
+        problem(value,
+                fmt::format("unknown key \"limits.{}\" (known: time_s memory_mib)", key.str()));
+      }
+    }
+  }
+
+  void take_overrides(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return problem(node, "overrides: expected tables [overrides.SYSTEM]");
+    for (const auto& [system, value] : *table) {
+      const toml::table* params = value.as_table();
+      if (params == nullptr) {
+        problem(value, fmt::format("overrides.{}: expected a table", system.str()));
+        continue;
+      }
+      take_system_overrides(std::string(system.str()), *params);
+    }
+  }
+
+  void take_system_overrides(const std::string& system, const toml::table& params) {
+    const Result<SystemInfo> info = find_system(system);
+    if (!info) return problem(params, "overrides: " + info.error().to_line());
+    for (const auto& [key, value] : params) {
+      const std::optional<std::string> text = scalar_text(value);
+      if (!text) {
+        problem(value, fmt::format("overrides.{}.{}: expected a number, text or truth value",
+                                   system, key.str()));
+        continue;
+      }
+      suite_.overrides[system][std::string(key.str())] = *text;
+    }
+  }
+
+  void check_overrides(const toml::table& table) {
+    for (const auto& [system, params] : suite_.overrides) {
+      const toml::node* node = table.at_path("overrides." + system).node();
+      const Result<SystemInfo> info = find_system(system);
+      for (const SystemChoice& choice : suite_.systems) {
+        if (choice.system != system) continue;
+        const Result<ParamValues> values = info->resolve(choice.profile, params);
+        if (!values) problem(node == nullptr ? table : *node, values.error().to_line());
+      }
+      const auto is_run = [&](const SystemChoice& choice) { return choice.system == system; };
+      if (std::none_of(suite_.systems.begin(), suite_.systems.end(), is_run)) {
+        problem(node == nullptr ? table : *node,
+                fmt::format("overrides.{}: the suite does not run this system", system));
+      }
+    }
+  }
+
+  std::string file_;
+  Suite suite_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace
+
+Result<Suite> read_suite(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(ErrorCode::kNotFound, "cannot be opened", path.string(), "a suite");
+  std::ostringstream text;
+  text << file.rdbuf();
+  try {
+    return Parser(path).parse(toml::parse(text.str(), path.string()));
+  } catch (const toml::parse_error& error) {
+    return fail(ErrorCode::kMalformed, std::string(error.description()),
+                fmt::format("{}:{}", path.string(), error.source().begin.line), "TOML");
+  }
+}
+
+}  // namespace corridor::runner

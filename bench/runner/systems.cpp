@@ -1,0 +1,125 @@
+#include "bench/runner/systems.hpp"
+
+#include <fmt/format.h>
+
+#include "baselines/gmapping/gmapping_slam.hpp"
+#include "baselines/karto/karto_slam.hpp"
+#include "bench/runner/back_ends.hpp"
+#include "bench/runner/system_entry.hpp"
+#include "slam/core/rng.hpp"
+#include "slam/fusion/fusion_slam.hpp"
+
+namespace corridor::runner {
+namespace {
+
+using SystemResult = Result<std::unique_ptr<SlamSystem>>;
+
+// Every system draws from its own stream, so that a system and a simulator with the same seed share
+// no number.
+Rng rng_of(const SystemRequest& request) { return Rng(request.seed).stream("system"); }
+
+SystemInfo gmapping_entry() {
+  SystemInfo info;
+  info.name = "gmapping";
+  info.description = "GMapping-style Rao-Blackwellised particle filter [Grisetti2007]";
+  info.is_stochastic = true;
+  set_factory<gmapping::GmappingParams>(
+      info, {{"shipped", "as its ROS node ships", {}}},
+      [](const gmapping::GmappingParams& params, const SystemRequest& request) -> SystemResult {
+        return gmapping::make_gmapping(params, request.robot, rng_of(request), request.threads);
+      });
+  return info;
+}
+
+SystemInfo karto_entry() {
+  SystemInfo info;
+  info.name = "karto";
+  info.description = "Karto-style correlative scan matching and pose graph [Konolige2010]";
+  info.default_backend = "levenberg";
+  set_factory<karto::KartoParams>(
+      info,
+      {{"shipped", "as the original ships", {}},
+       {"corrected",
+        "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
+        karto::corrected_params()}},
+      [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
+        auto back_end = make_back_end(request.backend.value_or("levenberg"), backend::spa_params());
+        if (!back_end) return tl::make_unexpected(back_end.error());
+        return karto::make_karto(params, request.robot, std::move(*back_end));
+      });
+  return info;
+}
+
+SystemResult make_fusion_system(const fusion::FusionParams& params, const SystemRequest& request) {
+  auto back_end = make_back_end(request.backend.value_or("gauss-newton"), {});
+  if (!back_end) return tl::make_unexpected(back_end.error());
+  return fusion::make_fusion(params, request.robot, std::move(*back_end));
+}
+
+SystemInfo fusion_paper_entry() {
+  SystemInfo info;
+  info.name = "fusion-paper";
+  info.description = "LiDAR, IMU and wheels in a factor graph, as published";
+  info.default_backend = "gauss-newton";
+  set_factory<fusion::FusionParams>(
+      info, {{"published", "the published method", fusion::fusion_paper_params()}},
+      make_fusion_system);
+  return info;
+}
+
+SystemInfo fusion_entry() {
+  SystemInfo info;
+  info.name = "fusion";
+  info.description = "LiDAR, IMU and wheels in a factor graph, per direction, with loop closing";
+  info.default_backend = "gauss-newton";
+  set_factory<fusion::FusionParams>(info, {{"default", "the defaults", {}}}, make_fusion_system);
+  return info;
+}
+
+template <class T>
+std::string names_of(const std::vector<T>& items) {
+  std::string names;
+  for (const T& item : items) names += (names.empty() ? "" : " ") + item.name;
+  return names;
+}
+
+}  // namespace
+
+bool SystemInfo::has_profile(std::string_view profile) const {
+  for (const ProfileInfo& info : profiles) {
+    if (info.name == profile) return true;
+  }
+  return false;
+}
+
+std::vector<SystemInfo> systems() {
+  return {gmapping_entry(), karto_entry(), fusion_paper_entry(), fusion_entry()};
+}
+
+Result<SystemInfo> find_system(std::string_view name) {
+  const std::vector<SystemInfo> all = systems();
+  for (const SystemInfo& info : all) {
+    if (info.name == name) return info;
+  }
+  return fail(ErrorCode::kNotFound, fmt::format("unknown system \"{}\"", name), "",
+              "one of: " + names_of(all));
+}
+
+Result<SystemChoice> parse_system_choice(std::string_view text) {
+  const std::size_t at = text.find('@');
+  const std::string_view name = text.substr(0, at);
+  const Result<SystemInfo> info = find_system(name);
+  if (!info) return tl::make_unexpected(info.error());
+  if (at == std::string_view::npos) {
+    return SystemChoice{std::string(name), info->profiles.front().name};
+  }
+  const std::string_view profile = text.substr(at + 1);
+  if (!info->has_profile(profile)) {
+    return fail(ErrorCode::kNotFound,
+                fmt::format("unknown profile \"{}\" of system {}", profile, name), "",
+                "one of: " + names_of(info->profiles));
+  }
+  return SystemChoice{std::string(name), std::string(profile)};
+}
+
+}  // namespace corridor::runner
