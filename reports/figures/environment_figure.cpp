@@ -16,7 +16,7 @@ using simulation::Segment;
 
 constexpr double kWidth_px = 760;
 constexpr double kHeight_px = 520;
-constexpr double kMargin_px = 70;
+constexpr double kMargin_px = 110;
 constexpr double kDimensionOffset_px = 30;  // from the wall to its dimension line
 constexpr double kHeadLength_px = 9;
 constexpr double kHeadHalfWidth_px = 3.5;
@@ -84,7 +84,8 @@ void draw_angle(Svg& svg, const PlaneFrame& frame, const KeyWalls& walls,
     arc.push_back(at(static_cast<double>(step) / kArcSteps, kArcRadius_px));
   }
   svg.polyline(arc, "dimension");
-  draw_label(svg, at(0.5, 2.1 * kArcRadius_px), label);
+  draw_label(svg, at(0.6, 1.3 * kArcRadius_px) - Eigen::Vector2d(0.4 * text_width_px(label), 0),
+             label);
 }
 
 void draw_width(Svg& svg, const PlaneFrame& frame, const KeyWalls& walls,
@@ -133,8 +134,9 @@ std::optional<Figure> environment_figure(const reports::Cases& cases, const std:
   }
   const PlaneFrame frame(bounds, 0, 0, kWidth_px, kHeight_px, kMargin_px);
   draw_walls(svg, frame, *scene.world, "wall");
-  if (scene.truth) draw_path(svg, frame, positions_m(*scene.truth, Pose2()), "path line-truth");
-  draw_outer_dimension(svg, frame, walls.right_outer, {12, -12}, labels[0]);
+  if (scene.truth) draw_path(svg, frame, positions_m(*scene.truth, Pose2()), "hint");
+  draw_outer_dimension(svg, frame, walls.right_outer, {0.55 * text_width_px(labels[0]), 4},
+                       labels[0]);
   draw_outer_dimension(svg, frame, walls.lower_outer, {0, 20}, labels[1]);
   draw_width(svg, frame, walls, labels[2]);
   draw_angle(svg, frame, walls, labels[3]);
@@ -142,7 +144,7 @@ std::optional<Figure> environment_figure(const reports::Cases& cases, const std:
       std::move(svg),
       fmt::format("The corridor of {} with its key distances: a and b are the lengths of "
                   "the two outer walls, c the width, α the angle between the outer walls. "
-                  "The thin line is the true path of one world.",
+                  "The dotted line is the true path of one world.",
                   dataset)};
 }
 

@@ -68,6 +68,9 @@ constexpr std::string_view kLightCss =
     ".figure .dimension{stroke:#0072B2;stroke-width:1.4;fill:none}"
     ".figure .dimension-head{fill:#0072B2}"
     ".figure .interval{stroke:#1a1a1a;stroke-width:2;fill:none}"
+    ".figure .hint{stroke:#8a8a84;stroke-width:1.5;stroke-dasharray:1 "
+    "5;stroke-linecap:round;fill:none}"
+    ".figure .line-truth{stroke-width:6;stroke-opacity:0.4}"
     ".figure .halo{stroke:#ffffff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}"
     ".figure .path{fill:none;stroke-width:2;stroke-linejoin:round}"
     ".figure .dot{fill-opacity:0.75}.figure image{image-rendering:pixelated}\n";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "reports/escape.hpp"
@@ -38,8 +39,8 @@ Svg::Svg(std::string id, double width_px, double height_px, std::string title,
     : id_(std::move(id)),
       title_(std::move(title)),
       description_(std::move(description)),
-      width_px_(width_px),
-      height_px_(height_px) {}
+      width_px_(std::ceil(width_px)),  // whole pixels: no half-covered line at the edge of the PNG
+      height_px_(std::ceil(height_px)) {}
 
 void Svg::line(double x1, double y1, double x2, double y2, std::string_view classes) {
   body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" class=\"{}\"/>\n", px(x1),

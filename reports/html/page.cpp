@@ -54,6 +54,17 @@ std::string file_links(const std::string& folder, const std::string& stem,
   return fmt::format("<span class=\"note\">As files: {}</span>", links);
 }
 
+data verdict_list(const Cases& cases) {
+  data list(data::type::list);
+  for (const Verdict& verdict : verdicts(cases)) {
+    data item;
+    item.set("subject", reports::valid_utf8(verdict.subject));
+    item.set("sentences", text_list(verdict.sentences));
+    list.push_back(item);
+  }
+  return list;
+}
+
 data table_list(const std::vector<tables::Table>& all,
                 std::string (*to_html)(const tables::Table&)) {
   data list(data::type::list);
@@ -62,7 +73,7 @@ data table_list(const std::vector<tables::Table>& all,
     item.set("caption", table.caption);
     item.set("html", to_html(table));
     item.set("links", file_links("tables", table.id, {"csv", "md", "tex"}));
-    item.set("is_long", table.rows.size() > kMaxOpenRows);
+    item.set("is_folded", table.is_detail || table.rows.size() > kMaxOpenRows);
     item.set("num_rows", fmt::format("{}", table.rows.size()));
     list.push_back(item);
   }
@@ -228,9 +239,7 @@ Result<std::string> render_page(const PageContent& content) {
   page.set("subtitle", subtitle(cases));
   page.set("style", style);
   page.set("style_hash", csp_hash(style));
-  data sentences(data::type::list);
-  for (const std::string& sentence : verdicts(cases)) sentences.push_back(text_item(sentence));
-  page.set("verdicts", sentences);
+  page.set("verdicts", verdict_list(cases));
   page.set("tables", table_list(*content.tables, tables::to_html));
   page.set("has_figures", !content.figures->empty());
   page.set("figures", figure_list(*content.figures));

@@ -48,8 +48,7 @@ std::string with_unit(const Estimate& estimate, const std::string& unit) {
                      interval.empty() ? "" : " ", interval);
 }
 
-std::string most_accurate(const std::string& dataset, const Metric& metric,
-                          const std::vector<Entry>& entries) {
+std::string most_accurate(const Metric& metric, const std::vector<Entry>& entries) {
   std::vector<WorldValues> values;
   for (const Entry& entry : entries) values.push_back(entry.values);
   const Entry& first = entries.front();
@@ -57,35 +56,32 @@ std::string most_accurate(const std::string& dataset, const Metric& metric,
       fmt::format("{} over {} of {} worlds", with_unit(first.estimate, metric.unit),
                   first.estimate.n, first.estimate.of);
   if (entries.size() == 1) {
-    return fmt::format("{}: the {} was measured for {} only: {}.", dataset, metric.name,
-                       first.label, figures);
+    return fmt::format("The {} was measured for {} only: {}.", metric.name, first.label, figures);
   }
   if (tables::clearly_smallest(values) == std::size_t{0}) {
     return fmt::format(
-        "{}: {} has the smallest {} of {} systems, and its lead over each of them is "
-        "shown to be real: median {}.",
-        dataset, first.label, metric.name, entries.size(), figures);
+        "{} has the smallest {} of {} systems, and its lead over each of them is shown "
+        "to be real: median {}.",
+        first.label, metric.name, entries.size(), figures);
   }
   return fmt::format(
-      "{}: {} has the smallest median {}, {}, but its lead over every one of the "
-      "other {} systems is not shown to be real.",
-      dataset, first.label, metric.name, figures, entries.size() - 1);
+      "{} has the smallest median {} of {} systems, {}, but its lead over every other "
+      "one is not shown to be real.",
+      first.label, metric.name, entries.size(), figures);
 }
 
-std::string factor_sentence(const std::string& dataset, const Metric& metric, const Entry& system,
-                            const Entry& rival) {
+// "karto 0.051 [0.048, 0.057] over 10 worlds (smaller)".
+std::string factor_text(const Entry& system, const Entry& rival) {
   const auto ratio = tables::compare_worlds(rival.values, system.values);
-  const std::string pair =
-      fmt::format("{}: {}'s {} against {}'s", dataset, system.label, metric.name, rival.label);
   if (!ratio) {
-    return fmt::format("{}: fewer than {} common worlds, so no comparison is made.", pair,
+    return fmt::format("{} not compared (fewer than {} common worlds)", rival.label,
                        tables::kMinValuesForInterval);
   }
-  const std::string numbers = fmt::format("factor {:.3f} [{:.3f}, {:.3f}] over {} worlds",
-                                          ratio->value, ratio->low, ratio->high, ratio->num_values);
-  if (ratio->high < 1) return fmt::format("{}: smaller, {}.", pair, numbers);
-  if (ratio->low > 1) return fmt::format("{}: larger, {}.", pair, numbers);
-  return fmt::format("{}: no difference is shown, {}.", pair, numbers);
+  return fmt::format("{} {:.3f} [{:.3f}, {:.3f}] over {} worlds ({})", rival.label, ratio->value,
+                     ratio->low, ratio->high, ratio->num_values,
+                     ratio->high < 1  ? "smaller"
+                     : ratio->low > 1 ? "larger"
+                                      : "no difference shown");
 }
 
 bool is_fusion(const Series& series) {
@@ -101,13 +97,17 @@ void append_trajectory_verdicts(const Cases& cases, const std::string& dataset,
   for (const Metric& metric : {reports::position_error(), reports::angle_error()}) {
     const std::vector<Entry> entries = entries_by_median(cases, dataset, metric);
     if (entries.empty()) continue;
-    sentences.push_back(most_accurate(dataset, metric, entries));
+    sentences.push_back(most_accurate(metric, entries));
     for (const Entry& system : entries) {
+      if (!is_fusion(system.series)) continue;
+      std::string factors;
       for (const Entry& rival : entries) {
-        if (is_fusion(system.series) && is_rival(rival.series)) {
-          sentences.push_back(factor_sentence(dataset, metric, system, rival));
-        }
+        if (!is_rival(rival.series)) continue;
+        factors += (factors.empty() ? "" : ", ") + factor_text(system, rival);
       }
+      if (factors.empty()) continue;
+      sentences.push_back(fmt::format("The {} of {} as a factor of its rivals': {}.", metric.name,
+                                      system.label, factors));
     }
   }
 }
@@ -152,8 +152,7 @@ void append_map_verdicts(const Cases& cases, const std::string& dataset,
     };
     const auto all = cases.of(dataset, series);
     if (!parts.empty() && std::any_of(all.begin(), all.end(), has_truth)) {
-      sentences.push_back(
-          fmt::format("{}: on {}'s own map, {}.", dataset, cases.label(series), parts));
+      sentences.push_back(fmt::format("On {}'s own map {}.", cases.label(series), parts));
     }
   }
 }
@@ -189,15 +188,17 @@ std::string outcome_sentence(const Cases& cases) {
 
 }  // namespace
 
-std::vector<std::string> verdicts(const Cases& cases) {
-  std::vector<std::string> sentences;
+std::vector<Verdict> verdicts(const Cases& cases) {
+  std::vector<Verdict> all;
   for (const std::string& dataset : cases.datasets()) {
-    append_trajectory_verdicts(cases, dataset, sentences);
-    append_map_verdicts(cases, dataset, sentences);
-    append_relation_verdict(cases, dataset, sentences);
+    Verdict verdict{dataset, {}};
+    append_trajectory_verdicts(cases, dataset, verdict.sentences);
+    append_map_verdicts(cases, dataset, verdict.sentences);
+    append_relation_verdict(cases, dataset, verdict.sentences);
+    if (!verdict.sentences.empty()) all.push_back(std::move(verdict));
   }
-  sentences.push_back(outcome_sentence(cases));
-  return sentences;
+  all.push_back({"All cases", {outcome_sentence(cases)}});
+  return all;
 }
 
 }  // namespace corridor::html

@@ -8,9 +8,13 @@
 
 namespace corridor::html {
 
-// Per data set with true poses: which system is the most accurate, how the fusion systems compare
-// with each rival, which way the map is wrong; then how many cases failed. Plain text, to be
-// escaped.
-std::vector<std::string> verdicts(const reports::Cases& cases);
+struct Verdict {
+  std::string subject;  // a data set, or "All cases"
+  std::vector<std::string> sentences;
+};
+
+// Per data set: which system is the most accurate, how the fusion systems compare with each rival,
+// which way the map is wrong; at the end how many cases failed. Plain text, to be escaped.
+std::vector<Verdict> verdicts(const reports::Cases& cases);
 
 }  // namespace corridor::html

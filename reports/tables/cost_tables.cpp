@@ -78,6 +78,7 @@ bool has_stage(const Cases& cases, const std::string& dataset, const Series& ser
 Table cost_table(const Cases& cases) {
   Table table;
   table.id = "cost";
+  table.is_detail = true;
   table.caption =
       "Time and memory per run, step() and finish() only: median over worlds [95 % bootstrap "
       "interval of the median] (worlds with a value / worlds tried)";
@@ -105,6 +106,7 @@ Table cost_table(const Cases& cases) {
 Table stage_table(const Cases& cases) {
   Table table;
   table.id = "stages";
+  table.is_detail = true;
   table.caption =
       "Time per stage, over the steps that entered it: median over worlds [95 % bootstrap interval "
       "of the median] (worlds with a value / worlds tried)";

@@ -119,6 +119,7 @@ Table trajectory_error_table(const Cases& cases) {
 Table comparison_table(const Cases& cases) {
   Table table;
   table.id = "comparison";
+  table.is_detail = true;
   table.caption =
       "Position error of a system divided by a rival's in the same world: median of the factors "
       "[95 % bootstrap interval] (worlds); below 1 the system is better";

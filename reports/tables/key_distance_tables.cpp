@@ -140,6 +140,7 @@ Table key_distance_table(const Cases& cases) {
 Table key_distance_error_table(const Cases& cases) {
   Table table;
   table.id = "table1-errors";
+  table.is_detail = true;
   table.caption =
       "Errors of the key distances, |measured - true|: median over worlds [95 % bootstrap "
       "interval of the median] (worlds in which it was measurable / worlds tried)";

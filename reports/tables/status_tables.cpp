@@ -35,6 +35,7 @@ Cell seed_cell(const std::optional<std::uint64_t>& seed) {
 Table outcome_table(const Cases& cases) {
   Table table;
   table.id = "outcomes";
+  table.is_detail = true;
   table.caption = "How the cases ended: number of cases";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
                    {"system", "system", ColumnKind::kText},
@@ -93,6 +94,7 @@ Table failure_table(const Cases& cases) {
 Table missing_table(const Cases& cases) {
   Table table;
   table.id = "not-measured";
+  table.is_detail = true;
   table.caption = "What was not measured: numbers without a value in any run of a system";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
                    {"number", "metric", ColumnKind::kText},

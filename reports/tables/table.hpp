@@ -50,6 +50,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> notes;
+  bool is_detail = false;  // folded on the page
 };
 
 }  // namespace corridor::tables

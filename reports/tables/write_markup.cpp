@@ -54,21 +54,22 @@ std::string latex_cell(const Cell& cell, ColumnKind kind) {
   return fmt::format("\\multicolumn{{2}}{{c}}{{{}}}", text);
 }
 
+// Longer texts may break anywhere; shorter ones stay on one line.
+constexpr std::size_t kMaxNameBytes = 32;
+
 std::string html_cell(const Cell& cell) {
-  const auto* estimate = std::get_if<Estimate>(&cell);
-  if (estimate == nullptr) {
-    const bool is_number = std::holds_alternative<Number>(cell);
-    const bool is_missing = std::holds_alternative<Missing>(cell);
-    return fmt::format("<td{}>{}</td>",
-                       is_number    ? " class=\"number\""
-                       : is_missing ? " class=\"missing\""
-                                    : "",
-                       escape_html(plain_text(cell)));
+  if (const auto* estimate = std::get_if<Estimate>(&cell)) {
+    return fmt::format("<td class=\"number\">{}{}{}<small>{}</small></td>",
+                       estimate->is_best ? "<strong>" : "",
+                       number_text(estimate->median, estimate->decimals),
+                       estimate->is_best ? "</strong>" : "", spread_text(*estimate));
   }
-  return fmt::format("<td class=\"number\">{}{}{} <small>{}</small></td>",
-                     estimate->is_best ? "<strong>" : "",
-                     number_text(estimate->median, estimate->decimals),
-                     estimate->is_best ? "</strong>" : "", spread_text(*estimate));
+  const std::string text = plain_text(cell);
+  const char* kind = std::holds_alternative<Number>(cell)    ? "number"
+                     : std::holds_alternative<Missing>(cell) ? "missing"
+                     : text.size() > kMaxNameBytes           ? "text"
+                                                             : "name";
+  return fmt::format("<td class=\"{}\">{}</td>", kind, escape_html(text));
 }
 
 }  // namespace
@@ -102,10 +103,12 @@ std::string to_latex(const Table& table) {
 }
 
 std::string to_html(const Table& table) {
+  const std::string id = escape_html(table.id);
   std::string text = fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n<table "
-      "id=\"{1}\"><caption>{0}</caption>\n<thead><tr>",
-      escape_html(table.caption), escape_html(table.id));
+      "<h3 id=\"{0}-caption\">{1}</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-labelledby=\"{0}-caption\">\n<table id=\"{0}\" aria-labelledby=\"{0}-caption\">\n"
+      "<thead><tr>",
+      id, escape_html(table.caption));
   for (const Column& column : table.columns) {
     text += fmt::format("<th scope=\"col\"{}>{}</th>",
                         column.kind == ColumnKind::kText ? "" : " class=\"number\"",
