@@ -1,0 +1,149 @@
+#include "slam/fusion/interval_factors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace corridor::fusion {
+namespace {
+
+motion::ImuDelta still_imu(double duration_s) {
+  motion::ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d::Zero());
+  for (double t = 0; t < duration_s - 1e-9; t += 0.005) integrator.integrate({}, 0.005);
+  return integrator.delta();
+}
+
+// A straight step of 0.2 m in 0.4 s that every sensor agrees on.
+Interval healthy() {
+  Interval interval;
+  interval.j = 1;
+  interval.wheel_T_i_j = Pose2(0.2, 0, 0);
+  interval.imu = still_imu(0.4);
+  interval.velocity_base_i_mps = {0.5, 0};
+  matching::ObservableMatch match;
+  match.T_map_base = Pose2(0.2, 0, 0);
+  match.information = 1e4 * Eigen::Matrix3d::Identity();
+  match.num_observable = 3;
+  interval.match = match;
+  interval.range_difference_m = 0.2;
+  interval.anchor_age_s = 0.4;
+  return interval;
+}
+
+struct Chosen {
+  IntervalVerdict verdict;
+  std::vector<graph::FactorPtr> factors;
+
+  [[nodiscard]] long count(std::string_view type) const {
+    return std::count_if(factors.begin(), factors.end(),
+                         [&](const graph::FactorPtr& f) { return f->type() == type; });
+  }
+};
+
+Chosen choose(const Interval& interval, const FusionParams& params) {
+  Chosen chosen;
+  chosen.verdict = add_interval_factors(interval, RobotModel{}, 1, params, chosen.factors);
+  return chosen;
+}
+
+class BothMethods : public ::testing::TestWithParam<bool> {
+ protected:
+  FusionParams params_ = GetParam() ? FusionParams{} : fusion_paper_params();
+};
+INSTANTIATE_TEST_SUITE_P(, BothMethods, ::testing::Bool(),
+                         [](const auto& method) { return method.param ? "Fusion" : "FusionPaper"; });
+
+TEST_P(BothMethods, UseEverySensorWhenAllAreHealthy) {
+  const Chosen chosen = choose(healthy(), params_);
+  EXPECT_FALSE(chosen.verdict.is_slip);
+  EXPECT_FALSE(chosen.verdict.is_degenerate);
+  EXPECT_EQ(chosen.count("imu_motion"), 1);
+  EXPECT_EQ(chosen.count("bias_walk"), 1);
+  EXPECT_EQ(chosen.count("wheel_motion"), 1);
+  EXPECT_EQ(chosen.count("relative_pose"), 1);
+}
+
+TEST_P(BothMethods, LeaveSlippingWheelsOut) {
+  Interval interval = healthy();
+  interval.wheel_T_i_j = Pose2(0.5, 0, 0);
+  const Chosen chosen = choose(interval, params_);
+  EXPECT_TRUE(chosen.verdict.is_slip);
+  EXPECT_EQ(chosen.count("wheel_motion"), 0);
+  EXPECT_EQ(chosen.count("relative_pose"), 1);
+}
+
+TEST(FusionPaper, LeavesTheLidarOutWhenTheViewDoesNotChange) {
+  Interval interval = healthy();
+  interval.range_difference_m = 0.017;
+  const Chosen chosen = choose(interval, fusion_paper_params());
+  EXPECT_TRUE(chosen.verdict.is_degenerate);
+  EXPECT_EQ(chosen.count("relative_pose"), 0);
+  EXPECT_EQ(chosen.count("wheel_motion"), 1);
+}
+
+TEST(FusionPaper, AStandingRobotsUnchangedViewIsNoDegradation) {
+  Interval interval = healthy();
+  interval.range_difference_m = 0.017;
+  interval.wheel_T_i_j = Pose2();
+  interval.velocity_base_i_mps.setZero();
+  EXPECT_FALSE(choose(interval, fusion_paper_params()).verdict.is_degenerate);
+}
+
+TEST(FusionPaper, KeepsTheLeastBadSensorWhenBothAreDegraded) {
+  Interval interval = healthy();
+  interval.range_difference_m = 0.02;            // 1.4 times beyond its threshold
+  interval.wheel_T_i_j = Pose2(1.0, 0, 0);       // far beyond its own
+  const Chosen chosen = choose(interval, fusion_paper_params());
+  EXPECT_TRUE(chosen.verdict.is_slip);
+  EXPECT_TRUE(chosen.verdict.is_degenerate);
+  EXPECT_TRUE(chosen.verdict.is_least_bad_kept);
+  EXPECT_EQ(chosen.count("relative_pose"), 1);
+  EXPECT_EQ(chosen.count("wheel_motion"), 0);
+}
+
+TEST(Fusion, TakesFromTheLidarOnlyTheDirectionsItSees) {
+  Interval interval = healthy();
+  interval.match->information = Eigen::Vector3d(0, 1e4, 1e4).asDiagonal();
+  interval.match->num_observable = 2;
+  interval.match->T_map_base = Pose2(0, 0, 0);   // would pull back by 0.2 m along x
+  const Chosen chosen = choose(interval, {});
+  EXPECT_TRUE(chosen.verdict.is_degenerate);
+  graph::Values values;
+  values.set_pose(0, {});
+  values.set_pose(1, {0.2, 0, 0});
+  for (const graph::FactorPtr& factor : chosen.factors) {
+    if (factor->type() == "relative_pose") {
+      EXPECT_NEAR(factor->chi2(values), 0, 1e-12);
+    }
+  }
+}
+
+TEST(Fusion, AWheelJumpTheLidarSeesLeavesTheWheelsOut) {
+  Interval interval = healthy();
+  interval.is_wheel_jump = true;
+  EXPECT_EQ(choose(interval, {}).count("wheel_motion"), 0);
+}
+
+TEST(Fusion, WithoutImuAndLidarTheWheelsStay) {
+  Interval interval = healthy();
+  interval.imu.reset();
+  interval.match.reset();
+  interval.is_wheel_jump = true;
+  const Chosen chosen = choose(interval, {});
+  EXPECT_EQ(chosen.count("wheel_motion"), 1);
+  EXPECT_TRUE(chosen.verdict.is_least_bad_kept);
+}
+
+TEST(BiasWalkSigma, GrowsWithTheRootOfTime) {
+  const ImuModel imu;
+  EXPECT_NEAR(bias_walk_sigma(imu, 4).x(), 2 * bias_walk_sigma(imu, 1).x(), 1e-15);
+}
+
+TEST(FusionParams, DefaultsAreValidAndEveryNameIsUnique) {
+  EXPECT_TRUE(param_violations(FusionParams{}).empty());
+  EXPECT_TRUE(param_violations(fusion_paper_params()).empty());
+  EXPECT_EQ(param_values(FusionParams{}).size(), param_table<FusionParams>().size());
+}
+
+}  // namespace
+}  // namespace corridor::fusion
