@@ -136,7 +136,7 @@ Calibration calibrate(int num_maps, double sigma_m, double sigma_rad) {
 }
 
 TEST(KeyDistances, ErrorsAreAsLargeAsTheirSigmas) {
-  const auto calibration = calibrate(25, 0, 0);
+  const auto calibration = calibrate(15, 0, 0);
   EXPECT_GT(calibration.mean_squared_z, 0.4);
   EXPECT_LT(calibration.mean_squared_z, 1.5);
   EXPECT_GE(calibration.ratio_within_2_sigma, 0.9);
@@ -144,7 +144,7 @@ TEST(KeyDistances, ErrorsAreAsLargeAsTheirSigmas) {
 
 // Noise that is new in every scan averages out better than the sigmas, made for drift, assume.
 TEST(KeyDistances, ErrorsOfNoisyPosesAreNotLargerThanTheirSigmas) {
-  const auto calibration = calibrate(15, 0.01, 0.002);
+  const auto calibration = calibrate(8, 0.01, 0.002);
   EXPECT_GT(calibration.mean_squared_z, 0.02);
   EXPECT_LT(calibration.mean_squared_z, 1);
   EXPECT_GE(calibration.ratio_within_2_sigma, 0.95);
