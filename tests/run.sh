@@ -25,8 +25,22 @@ build() {
     cmake --build --preset "$1" --parallel "$jobs"
 }
 
+# Processor seconds that the tests of one room may take in the release build.
+room_budget_s=60
+
 run_tests() {
-  ctest --preset "$1" --parallel "$jobs" --output-junit "$corridor_root/build/$1/tests.xml"
+  local status=0
+  ctest --preset "$1" --parallel "$jobs" --output-junit "$corridor_root/build/$1/tests.xml" |
+    tee "build/$1/tests.log" || status=$?
+  [ "$1" != release ] || print_rooms "build/$1/tests.log"
+  return "$status"
+}
+
+# From the summary per label that ctest ends with, "slam = 12.3 sec*proc (101 tests)".
+print_rooms() {
+  awk -v budget="$room_budget_s" '
+    BEGIN { print "\nprocessor time per room, budget " budget " s" }
+    / = .* sec\*proc \(/ { printf "%8.1f s  %s%s\n", $3, $1, ($3 > budget ? "  OVER BUDGET" : "") }' "$1"
 }
 
 our_sources() {

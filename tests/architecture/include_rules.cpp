@@ -68,11 +68,14 @@ const std::vector<Door>& doors() {
       {"Random123/", {"slam/core/rng"}},
       {"CLI/", {"bench/main.cpp", "bench/cli/"}, true},
       {"kainjow/", {"reports/"}},
+      {"librsvg/", {"reports/figures/raster"}},
+      {"cairo", {"reports/figures/raster"}},
+      {"openssl/", {"datasets/catalog/sha256", "bench/runner/"}},
+      {"yaml-cpp/", {"datasets/formats/"}},
       {"png.h", {"datasets/formats/", "reports/"}},
       {"zlib.h", {"datasets/formats/"}},
       {"toml++/", {"datasets/", "bench/"}, true},
       {"nlohmann/", {"datasets/", "bench/", "reports/"}, true},
-      {"spdlog/", {"bench/"}, true},
   };
   return table;
 }
