@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "baselines/gmapping/dense_path.hpp"
 #include "baselines/gmapping/particle_filter.hpp"
 #include "baselines/gmapping/published_map.hpp"
 #include "baselines/gmapping/scan_points.hpp"
+#include "slam/motion/dense_path.hpp"
+#include "slam/motion/wheel_track.hpp"
 
 namespace corridor::gmapping {
 namespace {
@@ -47,7 +48,7 @@ class GmappingSlam final : public SlamSystem {
   [[nodiscard]] std::string_view name() const override { return "gmapping"; }
 
   Result<StepReport> step(const SensorEvent& event) override {
-    if (const auto* wheel = std::get_if<WheelSample>(&event)) T_odom_base_ = wheel->T_odom_base;
+    if (const auto* wheel = std::get_if<WheelSample>(&event)) wheel_track_.add(*wheel);
     const auto* scan = std::get_if<LaserScan>(&event);
     StepReport report;
     report.stamp = stamp_of(event);
@@ -67,7 +68,7 @@ class GmappingSlam final : public SlamSystem {
     const auto scope = stage_clock().enter(Stage::kFinish);
     SlamEstimate estimate;
     const std::vector<Pose2> path_map_base = filter_.best_path();
-    estimate.trajectory = dense_path(records_, path_map_base);
+    estimate.trajectory = motion::dense_path(records_, path_map_base);
     estimate.map = published_map(used_scans_, path_map_base, params_);
     estimate.counters = {{"key_scans", static_cast<double>(used_scans_.size())},
                          {"resamplings", num_resamplings_},
@@ -78,7 +79,7 @@ class GmappingSlam final : public SlamSystem {
  private:
   // One scan as in [Grisetti2007] section V, algorithm 1. True if the scan was used.
   bool on_scan(const LaserScan& scan) {
-    predict();
+    predict(scan.stamp);
     const bool is_used = gate_.is_open();
     records_.push_back({scan.stamp, T_start_base_, is_used});
     if (!is_used) return false;
@@ -93,16 +94,18 @@ class GmappingSlam final : public SlamSystem {
     return true;
   }
 
-  // Noise is drawn for every scan, used or not. Without a wheel sample the robot stands still.
-  void predict() {
+  // Noise is drawn for every scan, used or not. Without wheel odometry the robot stands still.
+  void predict(Timestamp stamp) {
     const auto scope = stage_clock().enter(Stage::kPredict);
-    if (last_T_odom_base_ && T_odom_base_) {
-      const Pose2 T_before_after = last_T_odom_base_->between(*T_odom_base_);
+    const std::optional<Pose2> T_odom_base = wheel_track_.pose_at(stamp);
+    if (!T_odom_base) return;
+    if (last_T_odom_base_) {
+      const Pose2 T_before_after = last_T_odom_base_->between(*T_odom_base);
       filter_.predict(T_before_after);
       gate_.add(T_before_after);
       T_start_base_ = T_start_base_ * T_before_after;
     }
-    last_T_odom_base_ = T_odom_base_;
+    last_T_odom_base_ = T_odom_base;
   }
 
   void keep_points(const LaserScan& scan) {
@@ -141,11 +144,11 @@ class GmappingSlam final : public SlamSystem {
   RobotModel robot_;
   UpdateGate gate_;
   ParticleFilter filter_;
-  std::optional<Pose2> T_odom_base_;       // latest wheel sample
-  std::optional<Pose2> last_T_odom_base_;  // at the last scan
-  Pose2 T_start_base_;                     // odometry since the first scan
-  Pose2 T_map_start_;                      // correction of the odometry at the last used scan
-  std::vector<ScanRecord> records_;        // one per scan
+  motion::WheelTrack wheel_track_;
+  std::optional<Pose2> last_T_odom_base_;    // at the last scan
+  Pose2 T_start_base_;                       // odometry since the first scan
+  Pose2 T_map_start_;                        // correction of the odometry at the last used scan
+  std::vector<motion::ScanRecord> records_;  // one per scan
   std::vector<UsedScan> used_scans_;
   double num_resamplings_ = 0;
 };

@@ -1,10 +1,10 @@
-#include "baselines/gmapping/dense_path.hpp"
+#include "slam/motion/dense_path.hpp"
 
 #include <cstddef>
 
 #include "slam/core/expect.hpp"
 
-namespace corridor::gmapping {
+namespace corridor::motion {
 namespace {
 
 struct KeyPose {
@@ -61,4 +61,4 @@ Trajectory dense_path(const std::vector<ScanRecord>& records, const std::vector<
   return trajectory;
 }
 
-}  // namespace corridor::gmapping
+}  // namespace corridor::motion

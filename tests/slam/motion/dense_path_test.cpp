@@ -1,28 +1,14 @@
-#include "baselines/gmapping/dense_path.hpp"
+#include "slam/motion/dense_path.hpp"
 
 #include <gtest/gtest.h>
 
-#include "baselines/gmapping/ancestry.hpp"
-
-namespace corridor::gmapping {
+namespace corridor::motion {
 namespace {
 
 constexpr double kExact = 1e-12;
 
 ScanRecord record(double stamp_s, const Pose2& T_odom_base, bool is_key) {
   return {timestamp_from_seconds(stamp_s), T_odom_base, is_key};
-}
-
-TEST(Ancestry, GivesThePathFromTheRootThroughSharedNodes) {
-  Ancestry tree;
-  const std::size_t root = tree.add(Pose2(0, 0, 0), Ancestry::kNoParent);
-  const std::size_t left = tree.add(Pose2(1, 1, 0), root);
-  const std::size_t right = tree.add(Pose2(1, -1, 0), root);
-  const std::size_t leaf = tree.add(Pose2(2, -1, 0), right);
-  EXPECT_EQ(tree.path_to(leaf),
-            (std::vector<Pose2>{Pose2(0, 0, 0), Pose2(1, -1, 0), Pose2(2, -1, 0)}));
-  EXPECT_EQ(tree.path_to(left), (std::vector<Pose2>{Pose2(0, 0, 0), Pose2(1, 1, 0)}));
-  EXPECT_TRUE(tree.path_to(Ancestry::kNoParent).empty());
 }
 
 TEST(DensePath, OfNoRecordsIsEmpty) { EXPECT_TRUE(dense_path({}, {}).empty()); }
@@ -68,4 +54,4 @@ TEST(DensePath, DoesNotDependOnTheFrameOfTheOdometry) {
 }
 
 }  // namespace
-}  // namespace corridor::gmapping
+}  // namespace corridor::motion

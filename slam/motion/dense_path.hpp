@@ -7,7 +7,7 @@
 #include "slam/core/pose2.hpp"
 #include "slam/core/trajectory.hpp"
 
-namespace corridor::gmapping {
+namespace corridor::motion {
 
 struct ScanRecord {
   Timestamp stamp;
@@ -22,4 +22,4 @@ struct ScanRecord {
 // key, as many poses as keys, and strictly increasing stamps.
 Trajectory dense_path(const std::vector<ScanRecord>& records, const std::vector<Pose2>& key_poses);
 
-}  // namespace corridor::gmapping
+}  // namespace corridor::motion
