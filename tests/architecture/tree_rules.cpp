@@ -129,7 +129,7 @@ std::vector<std::string> forbidden_words(const SourceTree& tree) {
       std::string("HA") + "CK", std::string("not imple") + "mented", std::string("st") + "ub",
       std::string("st") + "ubs"};
   static const std::array<std::string, 3> kPaths{
-      std::string("/wo") + "rk/", std::string("/ho") + "me/", std::string("/t") + "mp/"};
+      std::string("/wo") + "rk/", std::string("/ro") + "ot/", std::string("/t") + "mp/"};
   std::vector<std::string> found;
   for (const SourceFile& file : tree.files) {
     if (file.path.find(".min.") != std::string::npos) continue;
