@@ -1,0 +1,185 @@
+#include "baselines/mrpt/mrpt_rbpf.hpp"
+
+#include <fmt/format.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/random/RandomGenerators.h>
+#include <mrpt/slam/CMetricMapBuilderRBPF.h>
+
+#include <deque>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "baselines/mrpt/conversions.hpp"
+#include "slam/core/expect.hpp"
+#include "slam/motion/dense_path.hpp"
+#include "slam/motion/wheel_track.hpp"
+
+namespace corridor::mrpt {
+namespace {
+
+using Builder = ::mrpt::slam::CMetricMapBuilderRBPF;
+
+::mrpt::maps::COccupancyGridMap2D::TMapDefinition grid_definition(const MrptRbpfParams& params) {
+  ::mrpt::maps::COccupancyGridMap2D::TMapDefinition grid;
+  grid.resolution = static_cast<float>(params.cell_size_m);
+  grid.insertionOpts.maxDistanceInsertion = static_cast<float>(params.insertion_range_m);
+  grid.insertionOpts.maxOccupancyUpdateCertainty =
+      static_cast<float>(params.max_occupancy_certainty);
+  grid.insertionOpts.considerInvalidRangesAsFreeSpace = params.use_no_returns;
+  auto& likelihood = grid.likelihoodOpts;
+  likelihood.likelihoodMethod = ::mrpt::maps::COccupancyGridMap2D::lmLikelihoodField_Thrun;
+  likelihood.LF_decimation = static_cast<unsigned>(params.likelihood_decimation);
+  likelihood.LF_stdHit = static_cast<float>(params.likelihood_sigma_m);
+  likelihood.LF_maxCorrsDistance = static_cast<float>(params.likelihood_max_distance_m);
+  likelihood.LF_zHit = static_cast<float>(params.likelihood_hit_weight);
+  likelihood.LF_zRandom = static_cast<float>(params.likelihood_random_weight);
+  likelihood.LF_maxRange = static_cast<float>(params.likelihood_range_m);
+  likelihood.LF_alternateAverageMethod = false;
+  likelihood.enableLikelihoodCache = true;
+  return grid;
+}
+
+Builder::TConstructionOptions construction_options(const MrptRbpfParams& params) {
+  Builder::TConstructionOptions options;
+  options.verbosity_level = ::mrpt::system::LVL_ERROR;
+  options.localizeLinDistance = static_cast<float>(params.localization_linear_m);
+  options.localizeAngDistance = static_cast<float>(params.localization_angular_rad);
+  options.insertionLinDistance = static_cast<float>(params.insertion_linear_m);
+  options.insertionAngDistance = static_cast<float>(params.insertion_angular_rad);
+  auto& filter = options.PF_options;
+  filter.PF_algorithm = ::mrpt::bayes::CParticleFilter::pfAuxiliaryPFOptimal;
+  filter.resamplingMethod = ::mrpt::bayes::CParticleFilter::prMultinomial;
+  filter.adaptiveSampleSize = false;
+  filter.sampleSize = static_cast<unsigned>(params.num_particles);
+  filter.BETA = params.resample_threshold_ratio;
+  filter.powFactor = params.likelihood_power;
+  filter.pfAuxFilterOptimal_MaximumSearchSamples = static_cast<unsigned>(params.num_search_samples);
+  options.mapsInitializers.push_back(grid_definition(params));
+  options.predictionOptions.pfOptimalProposal_mapSelection = 0;
+  return options;
+}
+
+class MrptRbpf final : public SlamSystem {
+ public:
+  MrptRbpf(const MrptRbpfParams& params, const RobotModel& robot, Rng rng)
+      : range_sigma_m_(robot.lidar.range_sigma_m),
+        rng_(rng.stream("mrpt-rbpf")),
+        builder_(construction_options(params)) {
+    CORRIDOR_EXPECT(param_violations(params).empty());
+  }
+
+  [[nodiscard]] std::string_view name() const override { return "mrpt-rbpf"; }
+
+  Result<StepReport> step(const SensorEvent& event) override {
+    StepReport report;
+    report.stamp = stamp_of(event);
+    if (const auto* wheel = std::get_if<WheelSample>(&event)) wheel_track_.add(*wheel);
+    const auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) return report;
+    if (!records_.empty() && scan->stamp <= records_.back().stamp) {
+      return fail(ErrorCode::kInvalid, "scan stamp does not increase",
+                  fmt::format("scan {}", records_.size()), "a stamp later than the last scan's");
+    }
+    try {
+      on_scan(*scan, report);
+    } catch (const std::exception& error) {
+      return fail(ErrorCode::kInternal, fmt::format("MRPT's RBPF-SLAM failed: {}", error.what()),
+                  fmt::format("scan {}", records_.size()));
+    }
+    return report;
+  }
+
+  Result<SlamEstimate> finish() override {
+    const auto scope = stage_clock().enter(Stage::kFinish);
+    SlamEstimate estimate;
+    if (records_.empty()) {
+      estimate.map = GridMap();
+      return estimate;
+    }
+    try {
+      estimate.trajectory = motion::dense_path(records_, key_poses());
+      const auto* maps = builder_.getCurrentlyBuiltMetricMap();
+      estimate.map = to_grid_map(*maps->mapByClass<::mrpt::maps::COccupancyGridMap2D>(0));
+    } catch (const std::exception& error) {
+      return fail(ErrorCode::kInternal,
+                  fmt::format("MRPT could not give its estimate: {}", error.what()));
+    }
+    estimate.counters = {{"key_scans", static_cast<double>(path_indices_.size())}};
+    return estimate;
+  }
+
+ private:
+  void on_scan(const LaserScan& scan, StepReport& report) {
+    const auto scope = stage_clock().enter(Stage::kMatch);
+    ::mrpt::random::getRandomGenerator().randomize(rng_.stream(records_.size()).next_u32());
+    const Pose2 T_last_now = odometry_step(scan.stamp);
+    ::mrpt::obs::CActionRobotMovement2D movement;
+    movement.computeFromOdometry(to_mrpt(T_last_now), {});
+    ::mrpt::obs::CActionCollection actions;
+    actions.insert(movement);
+    ::mrpt::obs::CSensoryFrame observations;
+    observations.insert(to_mrpt(scan, range_sigma_m_));
+    builder_.processActionObservation(actions, observations);
+    const bool is_key = note_path_length();
+    records_.push_back({scan.stamp, T_start_base_, is_key});
+    report.status = StepStatus::kTracked;
+    report.is_key_scan = is_key;
+    report.T_map_base =
+        to_pose2(::mrpt::poses::CPose3D(builder_.getCurrentPoseEstimation()->getMeanVal()));
+    if (!report.T_map_base->is_finite()) {
+      throw std::runtime_error("the estimated pose is not finite");
+    }
+  }
+
+  // Motion of the base since the last scan; none without wheel odometry.
+  Pose2 odometry_step(Timestamp stamp) {
+    const std::optional<Pose2> T_odom_base = wheel_track_.pose_at(stamp);
+    if (!T_odom_base) return {};
+    const Pose2 T_last_now = last_T_odom_base_ ? last_T_odom_base_->between(*T_odom_base) : Pose2();
+    last_T_odom_base_ = T_odom_base;
+    T_start_base_ = T_start_base_ * T_last_now;
+    return T_last_now;
+  }
+
+  // True if the filter ran: the particles' paths have grown, or this is the first scan.
+  bool note_path_length() {
+    const std::size_t length = builder_.mapPDF.m_particles.front().d->robotPath.size();
+    if (!path_indices_.empty() && path_indices_.back() + 1 == length) return false;
+    path_indices_.push_back(length - 1);
+    return true;
+  }
+
+  [[nodiscard]] std::vector<Pose2> key_poses() const {
+    std::deque<::mrpt::math::TPose3D> path;
+    builder_.getCurrentMostLikelyPath(path);
+    std::vector<Pose2> poses;
+    for (const std::size_t index : path_indices_) {
+      poses.emplace_back(path.at(index).x, path.at(index).y, path.at(index).yaw);
+    }
+    return poses;
+  }
+
+  double range_sigma_m_;
+  Rng rng_;
+  Builder builder_;
+  motion::WheelTrack wheel_track_;
+  std::optional<Pose2> last_T_odom_base_;    // at the last scan
+  Pose2 T_start_base_;                       // odometry since the first scan
+  std::vector<motion::ScanRecord> records_;  // one per scan
+  std::vector<std::size_t> path_indices_;    // of the particles' paths, one per key scan
+};
+
+}  // namespace
+
+std::unique_ptr<SlamSystem> make_mrpt_rbpf(const MrptRbpfParams& params, const RobotModel& robot,
+                                           Rng rng) {
+  return std::make_unique<MrptRbpf>(params, robot, rng);
+}
+
+}  // namespace corridor::mrpt

@@ -1,0 +1,90 @@
+// MRPT's own RBPF-SLAM (mrpt::slam::CMetricMapBuilderRBPF) as a third-party reference: a particle
+// filter over grid maps with optimal sampling [Blanco2010].
+// The algorithm is MRPT's, unchanged; this door only converts events, poses and the map.
+#pragma once
+
+#include <memory>
+
+#include "slam/core/params.hpp"
+#include "slam/core/rng.hpp"
+#include "slam/core/robot_model.hpp"
+#include "slam/core/slam_system.hpp"
+
+namespace corridor::mrpt {
+
+// Defaults: MRPT 2.5's config_files/rbpf-slam/gridmapping_optimal_sampling.ini, angles in radians;
+// what that file does not name (the odometry's noise among it) keeps the library's default.
+struct MrptRbpfParams {
+  int num_particles = 25;
+  double localization_linear_m = 1.0;
+  double localization_angular_rad = 0.6981317007977318;  // 40 deg
+  double insertion_linear_m = 1.0;
+  double insertion_angular_rad = 0.6981317007977318;  // 40 deg
+  double resample_threshold_ratio = 0.5;
+  double likelihood_power = 0.01;
+  int num_search_samples = 400;
+  double cell_size_m = 0.07;
+  double insertion_range_m = 35;
+  double max_occupancy_certainty = 0.60;
+  bool use_no_returns = true;
+  int likelihood_decimation = 5;
+  double likelihood_sigma_m = 0.20;
+  double likelihood_max_distance_m = 0.30;
+  double likelihood_hit_weight = 0.999;
+  double likelihood_random_weight = 0.001;
+  double likelihood_range_m = 30;
+
+  template <class V>
+  static void visit(MrptRbpfParams& p, V&& v) {
+    v(ParamInfo{"num_particles", "1", "number of particles", 1, 10000}, p.num_particles);
+    v(ParamInfo{"localization_linear_m", "m", "odometry displacement that makes the filter run", 0,
+                100},
+      p.localization_linear_m);
+    v(ParamInfo{"localization_angular_rad", "rad", "the same for rotation", 0, 7},
+      p.localization_angular_rad);
+    v(ParamInfo{"insertion_linear_m", "m", "odometry displacement that adds a scan to the maps", 0,
+                100},
+      p.insertion_linear_m);
+    v(ParamInfo{"insertion_angular_rad", "rad", "the same for rotation", 0, 7},
+      p.insertion_angular_rad);
+    v(ParamInfo{"resample_threshold_ratio", "1",
+                "resample when the effective number of particles falls below this share", 0, 1},
+      p.resample_threshold_ratio);
+    v(ParamInfo{"likelihood_power", "1", "likelihoods are raised to this power", 1e-6, 10},
+      p.likelihood_power);
+    v(ParamInfo{"num_search_samples", "1", "samples of the optimal proposal per particle", 1,
+                100000},
+      p.num_search_samples);
+    v(ParamInfo{"cell_size_m", "m", "side of a cell of the particles' maps", 0.01, 1},
+      p.cell_size_m);
+    v(ParamInfo{"insertion_range_m", "m", "largest range written into the maps", 0.1, 1000},
+      p.insertion_range_m);
+    v(ParamInfo{"max_occupancy_certainty", "1", "probability that one beam gives a cell", 0.5,
+                0.999},
+      p.max_occupancy_certainty);
+    v(ParamInfo{"use_no_returns", "", "beams without return clear space"}, p.use_no_returns);
+    v(ParamInfo{"likelihood_decimation", "1", "every n-th beam is used in the likelihood", 1,
+                10000},
+      p.likelihood_decimation);
+    v(ParamInfo{"likelihood_sigma_m", "m", "standard deviation of a hit", 1e-4, 100},
+      p.likelihood_sigma_m);
+    v(ParamInfo{"likelihood_max_distance_m", "m", "how far an end point looks for an occupied cell",
+                1e-3, 100},
+      p.likelihood_max_distance_m);
+    v(ParamInfo{"likelihood_hit_weight", "1", "weight of the hit term", 0, 1},
+      p.likelihood_hit_weight);
+    v(ParamInfo{"likelihood_random_weight", "1", "weight of the random term", 0, 1},
+      p.likelihood_random_weight);
+    v(ParamInfo{"likelihood_range_m", "m", "largest range used in the likelihood", 0.1, 1000},
+      p.likelihood_range_m);
+  }
+};
+
+// Requires parameters without violations. MRPT draws from one generator per process; it is set from
+// `rng` before every step, so that runs in one process do not disturb each other. Online pose: the
+// particles' mean. finish(): the most likely particle's path, scans between its updates filled in
+// from odometry, and its map.
+std::unique_ptr<SlamSystem> make_mrpt_rbpf(const MrptRbpfParams& params, const RobotModel& robot,
+                                           Rng rng);
+
+}  // namespace corridor::mrpt
