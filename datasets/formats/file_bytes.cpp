@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kGzipOnly = 15 + 16;  // zlib: largest window, gzip wrapper expected
 constexpr int kMemoryLevel = 8;     // zlib's default
-constexpr std::size_t kChunkBytes = std::size_t{1} << 18;
+constexpr std::size_t kChunkBytes = std::size_t{1} << 16;
 
 bool is_gzip(std::string_view bytes) {
   return bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
