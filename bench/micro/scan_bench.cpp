@@ -52,8 +52,10 @@ void draw_map(benchmark::State& state) {
   const simulation::RayCaster caster(simulation::make_corridor({}));
   const std::vector<Pose2> poses = drive_along(static_cast<std::size_t>(state.range(0)));
   std::vector<LaserScan> scans;
+  scans.reserve(poses.size());
   for (const Pose2& pose : poses) scans.push_back(cast_scan(caster, pose));
   std::vector<mapping::PosedScan> posed;
+  posed.reserve(poses.size());
   for (std::size_t index = 0; index < poses.size(); ++index) {
     posed.push_back({poses[index], &scans[index]});
   }
