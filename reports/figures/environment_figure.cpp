@@ -16,7 +16,8 @@ using simulation::Segment;
 
 constexpr double kWidth_px = 760;
 constexpr double kHeight_px = 520;
-constexpr double kMargin_px = 110;
+constexpr double kMargin_px = 56;
+constexpr double kLabelSpace_px = 100;      // at the right, for the label of a
 constexpr double kDimensionOffset_px = 30;  // from the wall to its dimension line
 constexpr double kHeadLength_px = 9;
 constexpr double kHeadHalfWidth_px = 3.5;
@@ -132,7 +133,7 @@ std::optional<Figure> environment_figure(const reports::Cases& cases, const std:
     bounds.include(wall.a_m);
     bounds.include(wall.b_m);
   }
-  const PlaneFrame frame(bounds, 0, 0, kWidth_px, kHeight_px, kMargin_px);
+  const PlaneFrame frame(bounds, 0, 0, kWidth_px - kLabelSpace_px, kHeight_px, kMargin_px);
   draw_walls(svg, frame, *scene.world, "wall");
   if (scene.truth) draw_path(svg, frame, positions_m(*scene.truth, Pose2()), "hint");
   draw_outer_dimension(svg, frame, walls.right_outer, {0.55 * text_width_px(labels[0]), 4},

@@ -7,8 +7,10 @@
 #include "reports/escape.hpp"
 #include "reports/figures/report_figures.hpp"
 #include "reports/figures/scale.hpp"
+#include "reports/figures/series_styles.hpp"
 #include "reports/metrics.hpp"
 #include "reports/published.hpp"
+#include "reports/tables/paper_world.hpp"
 
 namespace corridor::figures {
 namespace {
@@ -30,7 +32,7 @@ constexpr int kJitterLevels = 5;
 constexpr double kJitter_px = 4;
 
 struct Row {
-  Series series;
+  const SeriesStyle* style = nullptr;
   std::string label;
   WorldValues values;
   std::optional<tables::Estimate> estimate;
@@ -52,14 +54,16 @@ std::optional<double> published_error(const std::string& system, bool is_positio
 
 std::vector<Row> load_rows(const Cases& cases, const std::string& dataset, bool is_position) {
   const tables::Metric metric = is_position ? reports::position_error() : reports::angle_error();
+  const bool is_paper = tables::is_paper_world(cases, dataset);
+  const SeriesStyles styles(cases);
   std::vector<Row> rows;
   for (const Series& series : cases.series()) {
     if (cases.of(dataset, series).empty()) continue;
-    Row row{series,
+    Row row{&styles(series),
             cases.label(series),
             tables::world_values(cases, dataset, series, metric),
             {},
-            published_error(series.system, is_position)};
+            is_paper ? published_error(series.system, is_position) : std::nullopt};
     const tables::Cell cell = tables::summarise(cases, dataset, series, metric);
     if (const auto* estimate = std::get_if<tables::Estimate>(&cell)) row.estimate = *estimate;
     rows.push_back(std::move(row));
@@ -100,7 +104,7 @@ void draw_axis(Svg& svg, const Plot& plot, const LogScale& scale, double low, do
 }
 
 void draw_row(Svg& svg, const Row& row, const LogScale& scale, double y_px) {
-  const SeriesStyle& style = series_style(row.series.system);
+  const SeriesStyle& style = *row.style;
   int index = 0;
   for (const auto& [world, value] : row.values) {
     const double offset_px = kJitter_px * (index++ % kJitterLevels - kJitterLevels / 2);
@@ -155,11 +159,13 @@ std::optional<Figure> error_figure(const Cases& cases, const std::string& datase
   draw_plot(svg, {kLabelWidth_px, width_px, height_px}, position, "position error [m]");
   draw_plot(svg, {kLabelWidth_px + width_px + kGap_px, width_px, height_px}, angle,
             "angle error [deg]");
-  return Figure{std::move(svg),
-                fmt::format("Position and angle error on {} (RMSE of the final trajectory, first "
-                            "poses aligned), logarithmic axes. One mark per world; upright line: "
-                            "median; bar: its 95 % bootstrap interval; cross: the paper's value.",
-                            dataset)};
+  return Figure{
+      std::move(svg),
+      fmt::format("Position and angle error on {} (RMSE of the final trajectory, first "
+                  "poses aligned), logarithmic axes. One mark per world; upright line: "
+                  "median; bar: its 95 % bootstrap interval{}.",
+                  dataset,
+                  tables::is_paper_world(cases, dataset) ? "; cross: the paper's value" : "")};
 }
 
 }  // namespace corridor::figures

@@ -24,6 +24,8 @@ constexpr double kMinAspect_ratio = 0.55;  // height / width of a panel
 constexpr double kMaxAspect_ratio = 1.1;
 // How far beyond the true walls a map is shown.
 constexpr double kMaxGrowth_ratio = 0.25;
+// Free space around a map without known walls.
+constexpr double kMapSpace_ratio = 0.06;
 constexpr std::array<std::string_view, 4> kPaperSystems = {"gmapping", "karto", "fusion-paper",
                                                            "fusion"};
 
@@ -37,12 +39,14 @@ bool is_shown(const Series& series, bool has_truth) {
                            kPaperSystems.end();
 }
 
-std::string heading_of(const Cases& cases, const Series& series, const Case& entry) {
+std::string heading_of(const Cases& cases, const Series& series, const Case& entry,
+                       const Scene& scene) {
   std::string heading = cases.label(series);
   const auto error_m = reports::position_error().value(entry.result);
   const auto relation_m = reports::relation_translation_mean().value(entry.result);
   if (error_m) heading += fmt::format(", position error {:.3f} m", *error_m);
   if (!error_m && relation_m) heading += fmt::format(", relation error {:.3f} m", *relation_m);
+  if (scene.is_map_rendered) heading += " (common mapper)";
   if (entry.result.status != results::CaseStatus::kOk) {
     heading += fmt::format(" ({})", results::to_text(entry.result.status));
   }
@@ -60,13 +64,15 @@ std::vector<Panel> load_panels(const Cases& cases, const std::string& dataset,
                         : all.empty()  ? nullptr
                                        : all.front();
     if (entry == nullptr) continue;
-    panels.push_back({heading_of(cases, series, *entry), load_scene(*entry, problems)});
+    Scene scene = load_scene(*entry, problems);
+    const std::string heading = heading_of(cases, series, *entry, scene);
+    panels.push_back({heading, std::move(scene)});
   }
   return panels;
 }
 
 // The walls of one panel and its map, which may reach beyond them by a part of their size; the map
-// alone where no walls are known.
+// alone, with some space around, where no walls are known.
 Bounds panel_bounds(const Panel& panel) {
   Bounds bounds;
   if (panel.scene.world) {
@@ -76,16 +82,17 @@ Bounds panel_bounds(const Panel& panel) {
     }
   }
   if (!panel.scene.map) return bounds;
-  const Bounds walls = bounds;
-  for (Eigen::Vector2d corner_m : map_corners_m(*panel.scene.map, panel.scene.T_world_map)) {
-    if (!walls.is_empty()) {
-      const Eigen::Vector2d growth_m =
-          Eigen::Vector2d::Constant(kMaxGrowth_ratio * walls.size_m().maxCoeff());
-      corner_m = corner_m.cwiseMax(walls.min_m - growth_m).cwiseMin(walls.max_m + growth_m);
-    }
-    bounds.include(corner_m);
+  const Bounds map = occupied_bounds(*panel.scene.map, panel.scene.T_world_map);
+  if (map.is_empty()) return bounds;
+  if (bounds.is_empty()) {
+    const Eigen::Vector2d space_m =
+        Eigen::Vector2d::Constant(kMapSpace_ratio * map.size_m().maxCoeff());
+    return {map.min_m - space_m, map.max_m + space_m};
   }
-  return bounds;
+  const Eigen::Vector2d growth_m =
+      Eigen::Vector2d::Constant(kMaxGrowth_ratio * bounds.size_m().maxCoeff());
+  return {bounds.min_m.cwiseMin(map.min_m.cwiseMax(bounds.min_m - growth_m)),
+          bounds.max_m.cwiseMax(map.max_m.cwiseMin(bounds.max_m + growth_m))};
 }
 
 // One frame for all panels where walls are known, so that lengths compare by eye.
@@ -161,6 +168,11 @@ std::optional<Figure> map_figure(const Cases& cases, const std::string& dataset,
   std::string caption =
       fmt::format("Maps of {}: occupied black, free white, unknown grey.", dataset);
   if (has_walls) caption += " Lines: the true walls, first poses aligned; one scale for all.";
+  const bool has_rendered = std::any_of(
+      panels.begin(), panels.end(), [](const Panel& panel) { return panel.scene.is_map_rendered; });
+  if (has_rendered) {
+    caption += " Common mapper: the system makes no map; this one is drawn from its trajectory.";
+  }
   if (representative) caption += " " + representative->reason;
   return Figure{std::move(svg), std::move(caption)};
 }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "bench/statistics/quantiles.hpp"
 #include "datasets/formats/ros_map.hpp"
 #include "datasets/formats/tum.hpp"
 #include "reports/figures/raster.hpp"
@@ -61,14 +63,28 @@ CellRange observed_range(const GridMap& map) {
   return range;
 }
 
-PixelImage pixels_of(const GridMap& map, const CellRange& range) {
-  PixelImage image{range.width(), range.height(), {}};
-  for (int row = range.last_row; row >= range.first_row; --row) {
-    for (int column = range.first_column; column <= range.last_column; ++column) {
+// What a block of `factor` x `factor` cells shows: occupied before free before unknown.
+std::uint32_t block_pixel(const GridMap& map, int first_column, int first_row, int factor) {
+  std::uint32_t pixel = kTransparent;
+  for (int row = first_row; row < first_row + factor; ++row) {
+    for (int column = first_column; column < first_column + factor; ++column) {
+      if (!map.contains(column, row)) continue;
       const formats::CellClass kind = formats::classify(map.at(column, row));
-      image.pixels.push_back(kind == formats::CellClass::kUnknown    ? kTransparent
-                             : kind == formats::CellClass::kOccupied ? kOccupied
-                                                                     : kFree);
+      if (kind == formats::CellClass::kOccupied) return kOccupied;
+      if (kind == formats::CellClass::kFree) pixel = kFree;
+    }
+  }
+  return pixel;
+}
+
+// Rows from the top, as images have them; the range grows upwards and to the right to whole blocks.
+PixelImage pixels_of(const GridMap& map, const CellRange& range, int factor) {
+  PixelImage image{
+      (range.width() + factor - 1) / factor, (range.height() + factor - 1) / factor, {}};
+  for (int block_row = image.height - 1; block_row >= 0; --block_row) {
+    for (int block_column = 0; block_column < image.width; ++block_column) {
+      image.pixels.push_back(block_pixel(map, range.first_column + block_column * factor,
+                                         range.first_row + block_row * factor, factor));
     }
   }
   return image;
@@ -85,6 +101,10 @@ Scene load_scene(const reports::Case& entry, std::vector<std::string>& problems)
   scene.truth = read_if_there(entry.dir / "truth.tum", formats::read_tum, problems);
   scene.estimate = read_if_there(entry.dir / "final.tum", formats::read_tum, problems);
   scene.map = read_if_there(entry.dir / "map.yaml", formats::read_ros_map, problems);
+  if (!scene.map) {
+    scene.map = read_if_there(entry.dir / "rendered.yaml", formats::read_ros_map, problems);
+    scene.is_map_rendered = scene.map.has_value();
+  }
   scene.world = read_if_there(entry.dir / "world.toml", simulation::read_world, problems);
   if (scene.truth && scene.estimate) {
     scene.T_world_map = aligned_at_first_pose(*scene.truth, *scene.estimate);
@@ -134,30 +154,42 @@ void draw_scale_bar(Svg& svg, const PlaneFrame& frame, double x_px, double y_px,
 bool draw_map(Svg& svg, const PlaneFrame& frame, const GridMap& map, const Pose2& T_world_map) {
   const CellRange range = observed_range(map);
   if (range.is_empty()) return false;
-  const auto png = png_from_pixels(pixels_of(map, range));
+  const double cells_per_px = 1 / (frame.px_per_m() * map.resolution_m());
+  const int factor = std::max(1, static_cast<int>(std::lround(cells_per_px)));
+  const PixelImage image = pixels_of(map, range, factor);
+  const auto png = png_from_pixels(image);
   if (!png) return false;
+  const int end_column = range.first_column + image.width * factor;
+  const int end_row = range.first_row + image.height * factor;
   // The unit square of the image: (0, 0) is the upper left corner, (1, 1) the lower right one.
-  const Eigen::Vector2d origin =
-      frame(T_world_map * corner_m(map, range.first_column, range.last_row + 1));
-  const Eigen::Vector2d right =
-      frame(T_world_map * corner_m(map, range.last_column + 1, range.last_row + 1)) - origin;
-  const Eigen::Vector2d down =
-      frame(T_world_map * corner_m(map, range.first_column, range.first_row)) - origin;
+  const auto corner_px = [&](int column, int row) {
+    return frame(T_world_map * corner_m(map, column, row));
+  };
+  const Eigen::Vector2d origin = corner_px(range.first_column, end_row);
+  const Eigen::Vector2d right = corner_px(end_column, end_row) - origin;
+  const Eigen::Vector2d down = corner_px(range.first_column, range.first_row) - origin;
   svg.image(*png, fmt::format("matrix({:.6f} {:.6f} {:.6f} {:.6f} {:.4f} {:.4f})", right.x(),
                               right.y(), down.x(), down.y(), origin.x(), origin.y()));
   return true;
 }
 
-std::vector<Eigen::Vector2d> map_corners_m(const GridMap& map, const Pose2& T_world_map) {
-  const CellRange range = observed_range(map);
-  if (range.is_empty()) return {};
-  std::vector<Eigen::Vector2d> corners;
-  for (const int column : {range.first_column, range.last_column + 1}) {
-    for (const int row : {range.first_row, range.last_row + 1}) {
-      corners.push_back(T_world_map * corner_m(map, column, row));
+Bounds occupied_bounds(const GridMap& map, const Pose2& T_world_map) {
+  std::vector<double> x_m;
+  std::vector<double> y_m;
+  for (int row = 0; row < map.num_rows(); ++row) {
+    for (int column = 0; column < map.num_columns(); ++column) {
+      if (formats::classify(map.at(column, row)) != formats::CellClass::kOccupied) continue;
+      const Eigen::Vector2d centre_m = T_world_map * map.centre_m(column, row);
+      x_m.push_back(centre_m.x());
+      y_m.push_back(centre_m.y());
     }
   }
-  return corners;
+  Bounds bounds;
+  if (x_m.empty()) return bounds;
+  for (const double percent : {1.0, 99.0}) {
+    bounds.include({*statistics::percentile(x_m, percent), *statistics::percentile(y_m, percent)});
+  }
+  return bounds;
 }
 
 }  // namespace corridor::figures

@@ -20,6 +20,7 @@ struct Scene {
   std::optional<Trajectory> truth;     // T_world_base
   std::optional<Trajectory> estimate;  // T_map_base, at the end of the run
   std::optional<GridMap> map;          // in the map frame
+  bool is_map_rendered = false;        // the system has no map: the common mapper\'s stands in
   std::optional<simulation::World> world;
   // First poses aligned, as in the position error; identity without truth.
   Pose2 T_world_map;
@@ -37,10 +38,12 @@ void draw_walls(Svg& svg, const PlaneFrame& frame, const simulation::World& worl
                 std::string_view classes);
 // A bar of a round length that is about a fifth of the width, with its length, at the lower left.
 void draw_scale_bar(Svg& svg, const PlaneFrame& frame, double x_px, double y_px, double width_px);
-// The observed part of the map: occupied black, free white, unknown transparent. False (and nothing
-// is drawn) for a map without an observed cell.
+// The observed part of the map: occupied black, free white, unknown transparent. Where a cell is
+// smaller than a pixel, a pixel is black if any cell in it is, so that thin walls stay. False (and
+// nothing is drawn) for a map without an observed cell.
 bool draw_map(Svg& svg, const PlaneFrame& frame, const GridMap& map, const Pose2& T_world_map);
-// Corners of the observed part, in the world.
-std::vector<Eigen::Vector2d> map_corners_m(const GridMap& map, const Pose2& T_world_map);
+// Where the occupied cells lie in the world, without the outermost hundredth on each side: single
+// beams that leave through a window do not decide the frame.
+Bounds occupied_bounds(const GridMap& map, const Pose2& T_world_map);
 
 }  // namespace corridor::figures

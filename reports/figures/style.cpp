@@ -33,6 +33,8 @@ constexpr std::array kSpares = {
     SeriesStyle{"spare-1", "#117733", "#5cbd7c", "5 2 1 2 1 2", Marker::kSquare},
     SeriesStyle{"spare-2", "#332288", "#9487e0", "3 1", Marker::kTriangle},
     SeriesStyle{"spare-3", "#999933", "#cfcf62", "7 2", Marker::kCircle},
+    SeriesStyle{"spare-4", "#44AA99", "#63cdbb", "10 2 2 2", Marker::kDiamond},
+    SeriesStyle{"spare-5", "#CC6677", "#e58c9b", "1 3", Marker::kSquare},
 };
 
 // [Tol2021] muted, which has nine colours and grey: as many as there are stages.
@@ -60,7 +62,7 @@ constexpr std::string_view kLightCss =
     ".figure text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;font-size:13px;fill:#1a1a1a}"
     ".figure .small{font-size:11px}.figure .title{font-size:14px;font-weight:bold}"
     ".figure .muted{fill:#595959}"
-    ".figure .paper{fill:#ffffff}.figure .panel{fill:#f4f4f2;stroke:#c9c9c4;stroke-width:1}"
+    ".figure .paper{fill:#ffffff}.figure .panel{fill:#dfdfda;stroke:#c9c9c4;stroke-width:1}"
     ".figure .axis{stroke:#595959;stroke-width:1;fill:none}"
     ".figure .grid{stroke:#dcdcd8;stroke-width:1;fill:none}"
     ".figure .wall{stroke:#9a9a94;stroke-width:2;fill:none}"
@@ -70,9 +72,9 @@ constexpr std::string_view kLightCss =
     ".figure .interval{stroke:#1a1a1a;stroke-width:2;fill:none}"
     ".figure .hint{stroke:#8a8a84;stroke-width:1.5;stroke-dasharray:1 "
     "5;stroke-linecap:round;fill:none}"
-    ".figure .line-truth{stroke-width:6;stroke-opacity:0.4}"
     ".figure .halo{stroke:#ffffff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}"
     ".figure .path{fill:none;stroke-width:2;stroke-linejoin:round}"
+    ".figure .line-truth{stroke-width:7;stroke-opacity:0.35}"
     ".figure .dot{fill-opacity:0.75}.figure image{image-rendering:pixelated}\n";
 
 constexpr std::string_view kDarkCss =
@@ -92,12 +94,9 @@ void for_each_style(Visit&& visit) {
 
 }  // namespace
 
-const SeriesStyle& series_style(std::string_view system) {
-  if (const SeriesStyle* found = find_style(kSystems, system)) return *found;
-  std::size_t sum = 0;
-  for (const char character : system) sum += static_cast<unsigned char>(character);
-  return kSpares[sum % kSpares.size()];
-}
+const SeriesStyle* system_style(std::string_view system) { return find_style(kSystems, system); }
+
+const SeriesStyle& spare_style(std::size_t index) { return kSpares[index % kSpares.size()]; }
 
 const SeriesStyle& truth_style() { return kTruth; }
 

@@ -3,6 +3,7 @@
 // marker shapes say the same once more for grey prints.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -25,9 +26,10 @@ struct SeriesStyle {
   Marker marker = Marker::kCircle;
 };
 
-// By name of the system; a name that is not in the table gets one of the spare styles, always the
-// same for the same name.
-const SeriesStyle& series_style(std::string_view system);
+// The style of a system of the suite; nullptr for other names.
+const SeriesStyle* system_style(std::string_view system);
+// Styles for everything else; they repeat after six.
+const SeriesStyle& spare_style(std::size_t index);
 const SeriesStyle& truth_style();
 // Colours of parts of a bar: one per stage of slam/core/stage_clock.hpp.
 const SeriesStyle& stage_style(std::string_view stage);

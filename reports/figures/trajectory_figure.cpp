@@ -4,6 +4,7 @@
 #include "reports/escape.hpp"
 #include "reports/figures/report_figures.hpp"
 #include "reports/figures/scene.hpp"
+#include "reports/figures/series_styles.hpp"
 #include "reports/metrics.hpp"
 
 namespace corridor::figures {
@@ -19,7 +20,7 @@ constexpr double kMaxGrowth_ratio = 0.35;
 
 struct Drawn {
   std::string label;
-  std::string system;
+  const SeriesStyle* style = nullptr;
   std::vector<Eigen::Vector2d> points_m;
   std::optional<double> error_m;
 };
@@ -33,6 +34,7 @@ struct World {
 World load_world(const reports::Cases& cases, const reports::World& world,
                  std::vector<std::string>& problems) {
   World loaded;
+  const SeriesStyles styles(cases);
   for (const reports::Series& series : cases.series()) {
     const reports::Case* entry = case_in_world(cases, world, series);
     if (entry == nullptr) continue;
@@ -40,7 +42,7 @@ World load_world(const reports::Cases& cases, const reports::World& world,
     if (!scene.truth || !scene.estimate) continue;
     loaded.truth_m = positions_m(*scene.truth, Pose2());
     if (scene.world) loaded.walls = scene.world;
-    loaded.estimates.push_back({cases.label(series), series.system,
+    loaded.estimates.push_back({cases.label(series), &styles(series),
                                 positions_m(*scene.estimate, scene.T_world_map),
                                 reports::position_error().value(entry->result)});
   }
@@ -77,7 +79,7 @@ void draw_legend(Svg& svg, const World& world) {
   };
   entry(truth_style(), "truth");
   for (const Drawn& drawn : world.estimates) {
-    entry(series_style(drawn.system),
+    entry(*drawn.style,
           drawn.error_m ? fmt::format("{}: {:.3f} m", drawn.label, *drawn.error_m) : drawn.label);
   }
 }
@@ -100,8 +102,7 @@ std::optional<Figure> trajectory_figure(const reports::Cases& cases, const std::
   if (world.walls) draw_walls(svg, frame, *world.walls, "wall");
   draw_path(svg, frame, world.truth_m, "path line-truth");
   for (const Drawn& drawn : world.estimates) {
-    draw_path(svg, frame, drawn.points_m,
-              fmt::format("path line-{}", series_style(drawn.system).name));
+    draw_path(svg, frame, drawn.points_m, fmt::format("path line-{}", drawn.style->name));
   }
   draw_scale_bar(svg, frame, kMargin_px, kHeight_px - 16, plot_width_px);
   svg.end_group();

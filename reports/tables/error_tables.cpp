@@ -6,6 +6,7 @@
 
 #include "reports/metrics.hpp"
 #include "reports/published.hpp"
+#include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/summary.hpp"
 
@@ -33,7 +34,11 @@ Cell optional_number(std::optional<double> value, int decimals, const std::strin
   return Missing{reason};
 }
 
-void append_paper(const std::string& system, std::vector<Cell>& row) {
+void append_paper(const std::string& system, bool is_paper, std::vector<Cell>& row) {
+  if (!is_paper) {
+    row.insert(row.end(), {Missing{"other world"}, Missing{"other world"}});
+    return;
+  }
   const auto found = std::find_if(
       reports::kPaperTable2.begin(), reports::kPaperTable2.end(),
       [&](const reports::PublishedError& published) { return published.system == system; });
@@ -97,7 +102,7 @@ Table trajectory_error_table(const Cases& cases) {
                                             3, "not measured"));
       rows[index].push_back(fmt::format("{}/{}", num_ok_worlds(cases, dataset, series),
                                         num_worlds(cases, dataset, series)));
-      append_paper(series.system, rows[index]);
+      append_paper(series.system, is_paper_world(cases, dataset), rows[index]);
     }
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }

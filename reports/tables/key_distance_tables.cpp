@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <set>
 
 #include "reports/metrics.hpp"
 #include "reports/published.hpp"
+#include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/summary.hpp"
 
@@ -22,8 +22,6 @@ using reports::Series;
 constexpr std::array kMapKinds = {MapKind::kOwn, MapKind::kRendered};
 constexpr std::array<std::string_view, 4> kPaperSystems = {"karto", "fusion-paper", "fusion",
                                                            "gmapping"};
-// A world whose true values differ by less from the paper's is the paper's world.
-constexpr double kSameWorld = 1e-6;
 
 std::string map_name(MapKind kind) { return kind == MapKind::kOwn ? "own" : "common mapper"; }
 
@@ -35,29 +33,6 @@ std::vector<Series> table1_series(const Cases& cases) {
     }
   }
   return chosen;
-}
-
-std::set<double> true_values(const Cases& cases, const std::string& dataset, KeyVariable variable) {
-  std::set<double> values;
-  for (const reports::Case* entry : cases.of(dataset)) {
-    for (const MapKind kind : kMapKinds) {
-      if (const auto value = reports::key_true(variable, kind).value(entry->result)) {
-        values.insert(*value);
-      }
-    }
-  }
-  return values;
-}
-
-bool is_paper_world(const Cases& cases, const std::string& dataset) {
-  for (const auto& published : reports::kPaperTable1) {
-    const std::set<double> values = true_values(cases, dataset, published.variable);
-    if (values.empty() || std::abs(*values.begin() - published.true_value) > kSameWorld ||
-        std::abs(*values.rbegin() - published.true_value) > kSameWorld) {
-      return false;
-    }
-  }
-  return true;
 }
 
 Cell true_cell(const std::set<double>& values, int decimals) {
@@ -79,7 +54,7 @@ std::vector<Cell> table1_row(const Cases& cases, const std::string& dataset, Map
   const Metric measured = key_measured(variable, kind);
   const bool has_paper = is_paper_world(cases, dataset);
   const auto paper_cell = [&](double value) -> Cell {
-    if (has_paper) return Number{value, measured.decimals};
+    if (has_paper) return Number{value, 3};
     return Missing{"other world"};
   };
   std::vector<Cell> row = {dataset,

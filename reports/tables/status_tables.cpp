@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "reports/metrics.hpp"
 #include "reports/tables/report_tables.hpp"
@@ -28,6 +29,20 @@ Cell optional_count(const std::optional<std::int64_t>& count) {
 Cell seed_cell(const std::optional<std::uint64_t>& seed) {
   if (seed) return fmt::format("{}", *seed);
   return Missing{"recorded"};
+}
+
+// "all", the labels of the systems that have no value on the data set, or "" if each has one.
+std::string systems_without(const Cases& cases, const std::string& dataset, const Metric& metric) {
+  std::vector<std::string> without;
+  std::size_t num_tried = 0;
+  for (const Series& series : cases.series()) {
+    if (cases.of(dataset, series).empty()) continue;
+    ++num_tried;
+    if (world_values(cases, dataset, series, metric).empty()) {
+      without.push_back(cases.label(series));
+    }
+  }
+  return without.size() == num_tried ? "all" : fmt::format("{}", fmt::join(without, ", "));
 }
 
 }  // namespace
@@ -97,24 +112,16 @@ Table missing_table(const Cases& cases) {
   table.is_detail = true;
   table.caption = "What was not measured: numbers without a value in any run of a system";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
-                   {"number", "metric", ColumnKind::kText},
-                   {"systems without a value", "systems", ColumnKind::kText}};
+                   {"systems", "systems", ColumnKind::kText},
+                   {"numbers without a value", "metrics", ColumnKind::kText}};
   for (const std::string& dataset : cases.datasets()) {
+    std::map<std::string, std::vector<std::string>> metrics_by_systems;
     for (const Metric& metric : reports::headline_metrics()) {
-      std::vector<std::string> without;
-      std::size_t num_tried = 0;
-      for (const Series& series : cases.series()) {
-        if (cases.of(dataset, series).empty()) continue;
-        ++num_tried;
-        if (world_values(cases, dataset, series, metric).empty()) {
-          without.push_back(cases.label(series));
-        }
-      }
-      if (without.empty()) continue;
-      const bool is_all = without.size() == num_tried;
-      table.rows.push_back(
-          {dataset, metric.key,
-           is_all ? std::string("all") : fmt::format("{}", fmt::join(without, ", "))});
+      const std::string systems = systems_without(cases, dataset, metric);
+      if (!systems.empty()) metrics_by_systems[systems].push_back(metric.key);
+    }
+    for (const auto& [systems, metrics] : metrics_by_systems) {
+      table.rows.push_back({dataset, systems, fmt::format("{}", fmt::join(metrics, ", "))});
     }
   }
   return table;

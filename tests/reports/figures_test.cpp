@@ -6,6 +6,7 @@
 #include "reports/figures/raster.hpp"
 #include "reports/figures/report_figures.hpp"
 #include "reports/figures/scale.hpp"
+#include "reports/figures/series_styles.hpp"
 #include "reports/figures/svg.hpp"
 #include "tests/reports/synthetic_run.hpp"
 
@@ -113,10 +114,16 @@ TEST(PngFromPixels, GivesTheSameBytesForTheSamePixels) {
   EXPECT_EQ(*first, *png_from_pixels(image));
 }
 
-TEST(SeriesStyle, IsTheSameForTheSameNameAndKnowsEverySystem) {
-  EXPECT_EQ(series_style("karto").name, "karto");
-  EXPECT_EQ(series_style("<script>").name, series_style("<script>").name);
-  EXPECT_THAT(std::string(series_style("<script>").name), HasSubstr("spare"));
+TEST(SeriesStyles, GiveProfilesOfOneSystemAndUnknownSystemsStylesOfTheirOwn) {
+  std::vector<reports::Case> all(3);
+  all[0].result.system = all[1].result.system = "karto";
+  all[1].result.profile = "tuned";
+  all[2].result.system = "<script>";
+  const reports::Cases cases(all, {}, {});
+  const SeriesStyles styles(cases);
+  EXPECT_EQ(styles({"karto", "", ""}).name, "karto");
+  EXPECT_EQ(styles({"karto", "tuned", ""}).name, "spare-0");
+  EXPECT_EQ(styles({"<script>", "", ""}).name, "spare-1");
 }
 
 TEST(RepresentativeWorld, IsTheOneOfKartosMedianError) {

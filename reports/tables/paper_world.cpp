@@ -1,0 +1,41 @@
+#include "reports/tables/paper_world.hpp"
+
+#include <cmath>
+
+#include "reports/published.hpp"
+
+namespace corridor::tables {
+namespace {
+
+using reports::MapKind;
+
+// A world whose true values differ by less from the paper's is the paper's world [m, deg].
+constexpr double kSameWorld = 1e-6;
+
+}  // namespace
+
+std::set<double> true_values(const reports::Cases& cases, const std::string& dataset,
+                             reports::KeyVariable variable) {
+  std::set<double> values;
+  for (const reports::Case* entry : cases.of(dataset)) {
+    for (const MapKind kind : {MapKind::kOwn, MapKind::kRendered}) {
+      if (const auto value = reports::key_true(variable, kind).value(entry->result)) {
+        values.insert(*value);
+      }
+    }
+  }
+  return values;
+}
+
+bool is_paper_world(const reports::Cases& cases, const std::string& dataset) {
+  for (const auto& published : reports::kPaperTable1) {
+    const std::set<double> values = true_values(cases, dataset, published.variable);
+    if (values.empty() || std::abs(*values.begin() - published.true_value) > kSameWorld ||
+        std::abs(*values.rbegin() - published.true_value) > kSameWorld) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace corridor::tables

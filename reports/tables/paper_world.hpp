@@ -1,0 +1,18 @@
+// Whether a data set is the paper's corridor: only then do the paper's figures stand beside ours.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "reports/cases.hpp"
+#include "reports/metrics.hpp"
+
+namespace corridor::tables {
+
+// The true values of a key distance over all cases of a data set.
+std::set<double> true_values(const reports::Cases& cases, const std::string& dataset,
+                             reports::KeyVariable variable);
+// All four key distances are the paper's in every world.
+bool is_paper_world(const reports::Cases& cases, const std::string& dataset);
+
+}  // namespace corridor::tables
