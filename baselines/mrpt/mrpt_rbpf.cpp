@@ -117,7 +117,9 @@ class MrptRbpf final : public SlamSystem {
  private:
   void on_scan(const LaserScan& scan, StepReport& report) {
     const auto scope = stage_clock().enter(Stage::kMatch);
-    ::mrpt::random::getRandomGenerator().randomize(rng_.stream(records_.size()).next_u32());
+    // A new generator, because randomize() would leave a spare normal number of the last one in it.
+    ::mrpt::random::getRandomGenerator() =
+        ::mrpt::random::CRandomGenerator(rng_.stream(records_.size()).next_u32());
     const Pose2 T_last_now = odometry_step(scan.stamp);
     ::mrpt::obs::CActionRobotMovement2D movement;
     movement.computeFromOdometry(to_mrpt(T_last_now), {});
