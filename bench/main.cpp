@@ -85,9 +85,14 @@ std::vector<std::pair<const CLI::App*, Action>> declare(CLI::App& app, Commands&
 }
 
 // Help and version are answers on stdout, everything else is a wrong request.
-int answer_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+int answer_parse_error(const CLI::App& app, const CLI::ParseError& error, const char* first_word) {
   if (error.get_exit_code() == 0) return app.exit(error);
-  print_error(std::string(error.what()) + "; see --help");
+  const bool is_word = first_word != nullptr && *first_word != '\0' && *first_word != '-';
+  if (is_word && app.get_subcommands().empty()) {
+    print_error(std::string("unknown command \"") + first_word + "\"; see --help");
+  } else {
+    print_error(std::string(error.what()) + "; see --help");
+  }
   return corridor::runner::kExitBadRequest;
 }
 
@@ -101,7 +106,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return answer_parse_error(app, error);
+    return answer_parse_error(app, error, argc > 1 ? argv[1] : nullptr);
   }
   for (const auto& [command, action] : actions) {
     if (!command->parsed()) continue;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -12,25 +11,12 @@
 
 #include "bench/results/result_json.hpp"
 #include "tests/bench/results/random_result.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace corridor::results {
 namespace {
 
-// A folder of its own that is gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "corridor-store-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::filesystem::path store() const { return path_ / "results.sqlite"; }
-
- private:
-  std::filesystem::path path_;
-};
+using testing::ScratchFolder;
 
 RunResult result_named(const std::string& case_id) {
   RunResult result;
@@ -56,7 +42,7 @@ std::string query(const std::filesystem::path& path, const std::string& sql) {
 }
 
 RC_GTEST_PROP(ResultsStore, ReadsBackWhatWasPutWithTheLastOfEachCaseId, ()) {
-  const Folder folder;
+  const ScratchFolder folder;
   std::map<std::string, std::string> expected;
   std::vector<RunResult> results;
   const int num_results = *rc::gen::inRange(0, 6);
@@ -65,33 +51,34 @@ RC_GTEST_PROP(ResultsStore, ReadsBackWhatWasPutWithTheLastOfEachCaseId, ()) {
     results.back().case_id = "case-" + std::to_string(*rc::gen::inRange(0, 4));
     expected[results.back().case_id] = to_json(results.back());
   }
-  auto store = ResultsStore::open(folder.store());
+  auto store = ResultsStore::open(folder / "results.sqlite");
   RC_ASSERT(store.has_value());
   RC_ASSERT(store->put(results).has_value());
-  const auto read = ResultsStore::open_read_only(folder.store())->read_all();
+  const auto read = ResultsStore::open_read_only(folder / "results.sqlite")->read_all();
   RC_ASSERT(read.has_value());
   RC_ASSERT(read->size() == expected.size());
   for (const RunResult& result : *read) RC_ASSERT(to_json(result) == expected[result.case_id]);
 }
 
 TEST(ResultsStore, HasAColumnPerScalarKeyWithItsValue) {
-  const Folder folder;
+  const ScratchFolder folder;
   RunResult result = result_named("c");
   result.final_scores.position_rmse_m = 0.25;
   result.rendered_map.map_chamfer_m = 0.5;
   result.system_seed = std::numeric_limits<std::uint64_t>::max();
-  ASSERT_TRUE(ResultsStore::open(folder.store())->put({result}));
-  EXPECT_EQ(query(folder.store(), "SELECT position_rmse_m FROM cases"), "0.25");
-  EXPECT_EQ(query(folder.store(), "SELECT rendered_map_chamfer_m FROM cases"), "0.5");
-  EXPECT_EQ(query(folder.store(), "SELECT online_position_rmse_m FROM cases"), "null");
-  EXPECT_EQ(query(folder.store(), "SELECT system_seed FROM cases"), "18446744073709551615");
-  EXPECT_EQ(query(folder.store(), "SELECT status FROM cases"), "ok");
+  ASSERT_TRUE(ResultsStore::open(folder / "results.sqlite")->put({result}));
+  EXPECT_EQ(query(folder / "results.sqlite", "SELECT position_rmse_m FROM cases"), "0.25");
+  EXPECT_EQ(query(folder / "results.sqlite", "SELECT rendered_map_chamfer_m FROM cases"), "0.5");
+  EXPECT_EQ(query(folder / "results.sqlite", "SELECT online_position_rmse_m FROM cases"), "null");
+  EXPECT_EQ(query(folder / "results.sqlite", "SELECT system_seed FROM cases"),
+            "18446744073709551615");
+  EXPECT_EQ(query(folder / "results.sqlite", "SELECT status FROM cases"), "ok");
 }
 
 TEST(ResultsStore, KeepsMachines) {
-  const Folder folder;
+  const ScratchFolder folder;
   const Machine machine = this_machine();
-  auto store = ResultsStore::open(folder.store());
+  auto store = ResultsStore::open(folder / "results.sqlite");
   ASSERT_TRUE(store->put(machine));
   ASSERT_TRUE(store->put(machine));
   EXPECT_EQ(store->read_machines().value(), std::vector<Machine>{machine});
@@ -99,22 +86,23 @@ TEST(ResultsStore, KeepsMachines) {
 }
 
 TEST(ResultsStore, AddsTheColumnsThatAnOlderStoreLacks) {
-  const Folder folder;
-  ASSERT_TRUE(ResultsStore::open(folder.store())->put({result_named("old")}));
-  query(folder.store(), "ALTER TABLE cases DROP COLUMN chi2");
-  auto store = ResultsStore::open(folder.store());
+  const ScratchFolder folder;
+  ASSERT_TRUE(ResultsStore::open(folder / "results.sqlite")->put({result_named("old")}));
+  query(folder / "results.sqlite", "ALTER TABLE cases DROP COLUMN chi2");
+  auto store = ResultsStore::open(folder / "results.sqlite");
   ASSERT_TRUE(store.has_value());
   RunResult result = result_named("new");
   result.chi2 = 2.0;
   ASSERT_TRUE(store->put({result}));
-  EXPECT_EQ(query(folder.store(), "SELECT chi2 FROM cases WHERE case_id = 'new'"), "2.0");
+  EXPECT_EQ(query(folder / "results.sqlite", "SELECT chi2 FROM cases WHERE case_id = 'new'"),
+            "2.0");
   EXPECT_EQ(store->read_all()->size(), 2U);
 }
 
 TEST(ResultsStore, PutsAllOrNothing) {
-  const Folder folder;
-  auto store = ResultsStore::open(folder.store());
-  query(folder.store(),
+  const ScratchFolder folder;
+  auto store = ResultsStore::open(folder / "results.sqlite");
+  query(folder / "results.sqlite",
         "CREATE TRIGGER no_bad BEFORE INSERT ON cases WHEN NEW.case_id = 'bad' "
         "BEGIN SELECT RAISE(ABORT, 'bad row'); END");
   EXPECT_FALSE(store->put({result_named("good"), result_named("bad")}).has_value());
@@ -123,15 +111,16 @@ TEST(ResultsStore, PutsAllOrNothing) {
 }
 
 TEST(ResultsStore, RefusesForeignFilesAndCreatesNothingWhenReading) {
-  const Folder folder;
-  EXPECT_EQ(ResultsStore::open_read_only(folder.store()).error().code, ErrorCode::kNotFound);
-  EXPECT_FALSE(std::filesystem::exists(folder.store()));
-  std::ofstream(folder.store())
+  const ScratchFolder folder;
+  EXPECT_EQ(ResultsStore::open_read_only(folder / "results.sqlite").error().code,
+            ErrorCode::kNotFound);
+  EXPECT_FALSE(std::filesystem::exists(folder / "results.sqlite"));
+  std::ofstream(folder / "results.sqlite")
       << "This is a text, and long enough not to be taken for an empty file.";
-  EXPECT_FALSE(ResultsStore::open(folder.store()).has_value());
-  std::filesystem::remove(folder.store());
-  query(folder.store(), "CREATE TABLE theirs (x)");
-  EXPECT_NE(ResultsStore::open(folder.store()).error().what.find("another program"),
+  EXPECT_FALSE(ResultsStore::open(folder / "results.sqlite").has_value());
+  std::filesystem::remove(folder / "results.sqlite");
+  query(folder / "results.sqlite", "CREATE TABLE theirs (x)");
+  EXPECT_NE(ResultsStore::open(folder / "results.sqlite").error().what.find("another program"),
             std::string::npos);
 }
 

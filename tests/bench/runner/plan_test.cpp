@@ -1,0 +1,114 @@
+#include "bench/runner/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/scratch_folder.hpp"
+
+namespace corridor::runner {
+namespace {
+
+Suite suite_of(const std::vector<std::string>& systems) {
+  Suite suite;
+  suite.name = "test";
+  for (const std::string& text : systems) suite.systems.push_back(*parse_system_choice(text));
+  return suite;
+}
+
+// No folder at all: nothing recorded is found.
+Plan plan_of(const Suite& suite) {
+  const Result<Plan> plan = make_plan(suite, catalog::DataDirs{});
+  EXPECT_TRUE(plan.has_value()) << plan.error().to_line();
+  return *plan;
+}
+
+TEST(Plan, RunsRivalsOnTheSameWorldOneAfterTheOther) {
+  Suite suite = suite_of({"karto", "gmapping"});
+  suite.scenarios = {"paper-corridor"};
+  suite.num_seeds = 2;
+  suite.first_seed = 5;
+  const Plan plan = plan_of(suite);
+  ASSERT_EQ(plan.cases.size(), 4U);
+  EXPECT_EQ(plan.cases[0].system, "karto");
+  EXPECT_EQ(plan.cases[1].system, "gmapping");
+  EXPECT_EQ(plan.cases[1].data_seed, 5U);
+  EXPECT_EQ(plan.cases[2].data_seed, 6U);
+  EXPECT_EQ(plan.cases[2].system_seed, 6U);
+  EXPECT_EQ(plan.cases[0].backend, "levenberg");
+  EXPECT_FALSE(plan.cases[1].backend.has_value());
+}
+
+TEST(Plan, CrossesBackEndsWithTheSystemsThatTakeOne) {
+  Suite suite = suite_of({"karto", "gmapping"});
+  suite.scenarios = {"paper-corridor"};
+  suite.backends = {"gauss-newton", "levenberg"};
+  const Plan plan = plan_of(suite);
+  ASSERT_EQ(plan.cases.size(), 3U);
+  std::set<std::string> ids;
+  for (const CaseSpec& spec : plan.cases) ids.insert(case_id(spec));
+  EXPECT_EQ(ids.size(), plan.cases.size());
+}
+
+TEST(Plan, HandsOverridesToTheirSystemOnly) {
+  Suite suite = suite_of({"karto", "gmapping"});
+  suite.scenarios = {"paper-corridor"};
+  suite.overrides["gmapping"] = {{"num_particles", "7"}};
+  const Plan plan = plan_of(suite);
+  EXPECT_TRUE(plan.cases[0].overrides.empty());
+  EXPECT_EQ(plan.cases[1].overrides.at("num_particles"), "7");
+}
+
+TEST(Plan, SaysWhatItSkips) {
+  Suite suite = suite_of({"karto"});
+  suite.datasets = {"intel"};
+  const Plan plan = plan_of(suite);
+  EXPECT_TRUE(plan.cases.empty());
+  ASSERT_EQ(plan.skipped.size(), 1U);
+  EXPECT_EQ(plan.skipped[0].rfind("intel: skipped: ", 0), 0U) << plan.skipped[0];
+}
+
+TEST(Plan, RefusesDataThatWereNamedAndCannotBeLoaded) {
+  Suite suite = suite_of({"karto"});
+  suite.datasets = {"intel"};
+  EXPECT_FALSE(make_plan(suite, {}, {.must_load_data = true}).has_value());
+  suite.datasets.clear();
+  suite.scenarios = {"no-such-scenario"};
+  EXPECT_FALSE(make_plan(suite, {}).has_value());
+}
+
+TEST(Plan, MakesARowOfBrokenDataInASuite) {
+  const testing::ScratchFolder folder;
+  Suite suite = suite_of({"karto"});
+  suite.datasets = {folder.write("broken.clf", "FLASER garbage\n").string()};
+  const Plan plan = plan_of(suite);
+  EXPECT_EQ(plan.cases.size(), 1U);
+  EXPECT_TRUE(plan.skipped.empty());
+}
+
+// A CARMEN log of two scans of eight beams.
+constexpr const char* kTinyLog =
+    "ODOM 0 0 0 0.2 0 0 1.0 host 1.0\n"
+    "FLASER 8 1 1 1 1 1 1 1 1 0 0 0 0 0 0 1.0 host 1.0\n"
+    "ODOM 0.1 0 0 0.2 0 0 1.1 host 1.1\n"
+    "FLASER 8 1 1 1 1 1 1 1 1 0.1 0 0 0.1 0 0 1.1 host 1.1\n";
+
+TEST(Plan, RunsRecordedDataOncePerSeedOnlyWithSystemsThatDrawRandomNumbers) {
+  const testing::ScratchFolder folder;
+  Suite suite = suite_of({"karto", "gmapping"});
+  suite.datasets = {folder.write("tiny.clf", kTinyLog).string()};
+  suite.num_seeds = 3;
+  const Plan plan = plan_of(suite);
+  int num_karto = 0;
+  for (const CaseSpec& spec : plan.cases) {
+    num_karto += spec.system == "karto" ? 1 : 0;
+    EXPECT_EQ(spec.dataset, "tiny");
+    EXPECT_FALSE(spec.data_seed.has_value());
+    EXPECT_FALSE(spec.data_digest.empty());
+  }
+  EXPECT_EQ(num_karto, 1);
+  EXPECT_EQ(plan.cases.size(), 4U);
+}
+
+}  // namespace
+}  // namespace corridor::runner

@@ -1,0 +1,67 @@
+#include "bench/runner/systems.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bench/runner/back_ends.hpp"
+
+namespace corridor::runner {
+namespace {
+
+TEST(Systems, AreAllMadeWithEveryProfileAndAnswerToTheirName) {
+  for (const SystemInfo& info : systems()) {
+    EXPECT_FALSE(info.description.empty()) << info.name;
+    ASSERT_FALSE(info.profiles.empty()) << info.name;
+    for (const ProfileInfo& profile : info.profiles) {
+      const auto system = info.make({profile.name, {}, info.default_backend, RobotModel{}, 1, 1});
+      ASSERT_TRUE(system.has_value()) << info.name << ": " << system.error().to_line();
+      EXPECT_EQ((*system)->name(), info.name);
+    }
+  }
+}
+
+TEST(Systems, AreMadeWithEveryBackEndIfTheyTakeOne) {
+  for (const SystemInfo& info : systems()) {
+    if (!info.default_backend) continue;
+    EXPECT_TRUE(check_back_end(*info.default_backend)) << info.name;
+    for (const BackEndInfo& back_end : back_ends()) {
+      EXPECT_TRUE(info.make({info.profiles.front().name, {}, back_end.name, RobotModel{}, 1, 1})
+                      .has_value());
+    }
+    EXPECT_FALSE(
+        info.make({info.profiles.front().name, {}, "magic", RobotModel{}, 1, 1}).has_value());
+  }
+}
+
+TEST(Systems, HaveNamesOfTheirOwnAndParametersWithMeanings) {
+  std::set<std::string> names;
+  for (const SystemInfo& info : systems()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    for (const ParamRow& row : info.param_table(info.profiles.front().name)) {
+      EXPECT_FALSE(row.meaning.empty()) << info.name << "." << row.name;
+    }
+  }
+}
+
+TEST(Systems, ResolveEveryParameterAndRefuseUnknownOnes) {
+  const SystemInfo karto = *find_system("karto");
+  const auto values = karto.resolve("shipped", {{"buffer_size_scans", "5"}});
+  ASSERT_TRUE(values.has_value());
+  EXPECT_EQ(values->at("buffer_size_scans"), "5");
+  EXPECT_EQ(values->size(), karto.param_table("shipped").size());
+  EXPECT_NE(karto.resolve("shipped", {})->at("count_no_returns"),
+            karto.resolve("corrected", {})->at("count_no_returns"));
+  EXPECT_FALSE(karto.resolve("shipped", {{"speed", "5"}}).has_value());
+  EXPECT_FALSE(karto.resolve("nope", {}).has_value());
+}
+
+TEST(SystemChoice, ReadsNamesWithAndWithoutAProfile) {
+  EXPECT_EQ(parse_system_choice("karto").value(), (SystemChoice{"karto", "shipped"}));
+  EXPECT_EQ(parse_system_choice("karto@corrected").value(), (SystemChoice{"karto", "corrected"}));
+  EXPECT_EQ(parse_system_choice("karto@").error().what, "unknown profile \"\" of system karto");
+  EXPECT_NE(parse_system_choice("Karto").error().expected.find("karto"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace corridor::runner

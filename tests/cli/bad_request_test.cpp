@@ -1,0 +1,116 @@
+// What is wrong with a request or its input is said in exactly one line, with exit code 2, and
+// nothing is left behind.
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.hpp"
+
+namespace corridor::testing {
+namespace {
+
+constexpr const char* kGoodLog =
+    "ODOM 0 0 0 0.2 0 0 1.0 host 1.0\n"
+    "FLASER 4 1 1 1 1 0 0 0 0 0 0 1.0 host 1.0\n"
+    "ODOM 0.1 0 0 0.2 0 0 1.1 host 1.1\n"
+    "FLASER 4 1 1 1 1 0.1 0 0 0.1 0 0 1.1 host 1.1\n";
+
+void expect_refused(const ScratchFolder& folder, const std::string& arguments,
+                    const std::vector<std::string>& parts) {
+  const std::vector<std::string> before = contents_of(folder.path());
+  const Answer answer = run_program(folder, arguments);
+  EXPECT_EQ(answer.exit_code, 2) << arguments;
+  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+  EXPECT_EQ(answer.out, "") << arguments;
+  for (const std::string& part : parts) {
+    EXPECT_NE(answer.err.find(part), std::string::npos) << part << " in " << answer.err;
+  }
+  EXPECT_EQ(contents_of(folder.path()), before) << arguments;
+}
+
+TEST(BadRequest, AnEmptyLog) {
+  const ScratchFolder folder;
+  folder.write("empty.clf", "");
+  folder.write("empty.rawlog", "");
+  expect_refused(folder, "run --system karto --dataset empty.clf --out o", {"empty.clf", "empty"});
+  expect_refused(folder, "run --system karto --dataset empty.rawlog --out o",
+                 {"empty.rawlog", "empty"});
+}
+
+TEST(BadRequest, ATruncatedLog) {
+  const ScratchFolder folder;
+  std::string text = kGoodLog;
+  folder.write("cut.clf", text.substr(0, text.size() - 25));
+  expect_refused(folder, "run --system karto --dataset cut.clf --out o", {"cut.clf", "4"});
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out whole.rawlog").exit_code, 0);
+  text = text_of(folder / "whole.rawlog");
+  folder.write("cut.rawlog", text.substr(0, text.size() / 2));
+  expect_refused(folder, "run --system karto --dataset cut.rawlog --out o",
+                 {"cut.rawlog", "truncated"});
+}
+
+TEST(BadRequest, StampsOutOfOrder) {
+  const ScratchFolder folder;
+  folder.write("order.clf",
+               std::string(kGoodLog) + "FLASER 4 1 1 1 1 0.1 0 0 0.1 0 0 0.5 host 0.5\n");
+  expect_refused(folder, "run --system karto --dataset order.clf --out o", {"order.clf", "5"});
+}
+
+TEST(BadRequest, AnUnknownSystem) {
+  const ScratchFolder folder;
+  expect_refused(folder, "run smoke --system nobody --out o",
+                 {"unknown system \"nobody\"", "one of", "karto"});
+}
+
+TEST(BadRequest, AnUnknownKeyInASuite) {
+  const ScratchFolder folder;
+  folder.write(
+      "mine.toml",
+      "name = \"mine\"\nsystems = [\"karto\"]\nscenarios = [\"paper-corridor\"]\nsede = 1\n");
+  expect_refused(folder, "run mine.toml --out o", {"mine.toml:4", "unknown key \"sede\""});
+}
+
+TEST(BadRequest, UnknownNames) {
+  const ScratchFolder folder;
+  expect_refused(folder, "run nosuite --out o", {"nosuite", "smoke"});
+  expect_refused(folder, "run smoke --backend magic --out o", {"magic", "levenberg"});
+  expect_refused(folder, "run smoke --dataset nowhere --out o", {"nowhere"});
+  expect_refused(folder, "run smoke --set karto.nope=1 --out o", {"nope"});
+  expect_refused(folder, "run smoke --executor slurm --out o", {"slurm", "local"});
+  expect_refused(folder, "simulate nowhere --out x.rawlog", {"nowhere"});
+  expect_refused(folder, "data verify nowhere", {"nowhere"});
+  expect_refused(folder, "list nothing", {"nothing"});
+}
+
+TEST(BadRequest, CommandLinesThatCannotBeRead) {
+  const ScratchFolder folder;
+  expect_refused(folder, "", {"--help"});
+  expect_refused(folder, "frobnicate", {"frobnicate"});
+  expect_refused(folder, "run", {"SUITE"});
+  expect_refused(folder, "run smoke --jobs none", {"--jobs"});
+  expect_refused(folder, "run smoke --bogus", {"--bogus"});
+}
+
+TEST(BadRequest, FilesThatCannotBeReadOrWritten) {
+  const ScratchFolder folder;
+  expect_refused(folder, "run-case no.json --out o", {"no.json"});
+  folder.write("bad.json", "{}");
+  expect_refused(folder, "run-case bad.json --out o", {"bad.json", "\"system\" is missing"});
+  expect_refused(folder, "simulate paper-corridor --out no/such/x.rawlog", {"no/such"});
+  expect_refused(folder, "simulate paper-corridor --out x.txt", {"x.txt", ".rawlog"});
+  expect_refused(folder, "convert no.clf x.rawlog", {"no.clf"});
+  expect_refused(folder, "report nowhere --out r", {"nowhere"});
+}
+
+TEST(BadRequest, AnEvaluationWithNothingToCompare) {
+  const ScratchFolder folder;
+  folder.write("e.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  folder.write("far.tum", "1000 0 0 0 0 0 0 1\n2000 1 0 0 0 0 0 1\n");
+  folder.write("bad.tum", "1 0 0 0 0 0 0 1\n2 1 0 zero 0 0 0 1\n");
+  expect_refused(folder, "evaluate --estimate e.tum", {"--truth"});
+  expect_refused(folder, "evaluate --estimate e.tum --truth no.tum", {"no.tum"});
+  expect_refused(folder, "evaluate --estimate e.tum --truth bad.tum", {"bad.tum:2"});
+  expect_refused(folder, "evaluate --estimate e.tum --truth far.tum", {"no pose could be matched"});
+  expect_refused(folder, "evaluate --estimate e.tum --truth e.tum --map m.yaml", {"--world"});
+}
+
+}  // namespace
+}  // namespace corridor::testing
