@@ -97,7 +97,7 @@ void draw_width(Svg& svg, const PlaneFrame& frame, const KeyWalls& walls,
   const Eigen::Vector2d foot_m = outer.a_m + 0.35 * outer.length_m() * along_m;
   const double width_m = inward_m.dot(walls.lower_inner.a_m - outer.a_m);
   draw_dimension(svg, frame(foot_m), frame(foot_m + width_m * inward_m),
-                 {0.6 * text_width_px(label), 4}, label);
+                 {0.6 * text_width_px(label), -24}, label);
 }
 
 const reports::Case* case_with_corridor(const reports::Cases& cases, const std::string& dataset,

@@ -19,7 +19,7 @@ using reports::Series;
 constexpr double kWidth_px = 960;
 constexpr double kGap_px = 12;
 constexpr double kHeading_px = 26;
-constexpr double kPanelMargin_px = 12;
+constexpr double kPanelMargin_px = 26;     // leaves room for the scale bar
 constexpr double kMinAspect_ratio = 0.55;  // height / width of a panel
 constexpr double kMaxAspect_ratio = 1.1;
 // How far beyond the true walls a map is shown.

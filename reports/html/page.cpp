@@ -1,15 +1,14 @@
 #include "reports/html/page.hpp"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
-#include <array>
 #include <kainjow/mustache.hpp>
 #include <map>
 #include <set>
 
 #include "reports/escape.hpp"
+#include "reports/html/csp_hash.hpp"
 #include "reports/html/page_parts.hpp"
 #include "reports/html/verdict.hpp"
 #include "reports/tables/writers.hpp"
@@ -220,14 +219,6 @@ std::string subtitle(const Cases& cases) {
 }
 
 }  // namespace
-
-std::string csp_hash(const std::string& content) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  EVP_Digest(content.data(), content.size(), digest.data(), &length, EVP_sha256(), nullptr);
-  return "sha256-" +
-         reports::base64({reinterpret_cast<const char*>(digest.data()), std::size_t{length}});
-}
 
 Result<std::string> render_page(const PageContent& content) {
   const Cases& cases = *content.cases;

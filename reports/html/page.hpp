@@ -25,7 +25,4 @@ struct PageContent {
 // hash, nothing else.
 Result<std::string> render_page(const PageContent& content);
 
-// "sha256-..." as a Content-Security-Policy wants it [CSP3, section 2.3.1].
-std::string csp_hash(const std::string& content);
-
 }  // namespace corridor::html

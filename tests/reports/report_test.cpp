@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "bench/results/results_store.hpp"
+#include "reports/html/csp_hash.hpp"
 #include "reports/html/page.hpp"
 #include "reports/html/verdict.hpp"
 #include "reports/tables/report_tables.hpp"
