@@ -30,7 +30,6 @@ constexpr double kMaxTilt_rad = 1e-3;
 constexpr double kFullTurn_rad = 2 * std::numbers::pi;
 constexpr double kApertureRounding_rad = 1e-3;
 constexpr float kBeyondLimit_m = 1.0F;
-constexpr std::string_view kLidarLabel = "LIDAR";
 
 class RawlogParser {
  public:

@@ -167,6 +167,17 @@ TEST(Rawlog, AnAbsurdBeamCountIsRefusedBeforeAnythingIsAllocated) {
                                            ": number of beams is 4000000000; expected at most"));
 }
 
+TEST(Rawlog, AMissingEndFlagIsNamedByItsByte) {
+  std::string bytes = *rawlog_bytes(small_log());
+  const RawlogFrame frame = check_rawlog_frames(bytes, "a")->at(1);
+  const std::size_t flag = frame.begin + frame.size - 1;
+  bytes[flag] = 'x';
+  const auto frames = check_rawlog_frames(bytes, "a");
+  ASSERT_FALSE(frames.has_value());
+  EXPECT_TRUE(contains(frames.error(), "a: byte " + std::to_string(flag) + ": byte 0x78 after"))
+      << frames.error().to_line();
+}
+
 TEST(Rawlog, UnknownClassesVersionsAndOldHeadersAreUnsupportedOrMalformed) {
   std::string bytes = *rawlog_bytes(small_log());
   const auto code_of = [](const std::string& changed) {
