@@ -16,8 +16,8 @@ inline constexpr std::int64_t kRawlogTick_ns = 100;
 // whose leading comment is the robot model), and pairs of actions and sensory frames. An action's
 // odometry increment leads from one sensory frame to the next [MRPT], so the accumulated pose is
 // stamped with the first scan of the frame that follows; the action's own stamp (a midpoint in some
-// logs) is used only if no frame follows. Of several LiDARs the one labelled LIDAR, otherwise the
-// first, is kept; what is left out is counted.
+// logs) is used only if no frame follows. Of several LiDARs, told apart by
+// their labels, the first is kept; what is left out is counted.
 Result<ParsedLog> parse_rawlog(std::string_view bytes, const std::string& file);
 
 // The decompressed file. MRPT's fan is symmetric about the sensor, so a scan whose angles are not
