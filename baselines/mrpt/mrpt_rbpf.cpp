@@ -72,6 +72,7 @@ class MrptRbpf final : public SlamSystem {
         rng_(rng.stream("mrpt-rbpf")),
         builder_(construction_options(params)) {
     CORRIDOR_EXPECT(param_violations(params).empty());
+    builder_.mapPDF.setMinLoggingLevel(::mrpt::system::LVL_ERROR);
   }
 
   [[nodiscard]] std::string_view name() const override { return "mrpt-rbpf"; }
