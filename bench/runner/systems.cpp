@@ -4,6 +4,8 @@
 
 #include "baselines/gmapping/gmapping_slam.hpp"
 #include "baselines/karto/karto_slam.hpp"
+#include "baselines/mrpt/mrpt_icp.hpp"
+#include "baselines/mrpt/mrpt_rbpf.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/system_entry.hpp"
 #include "slam/core/rng.hpp"
@@ -46,6 +48,31 @@ SystemInfo karto_entry() {
         auto back_end = make_back_end(request.backend.value_or("levenberg"), backend::spa_params());
         if (!back_end) return tl::make_unexpected(back_end.error());
         return karto::make_karto(params, request.robot, std::move(*back_end));
+      });
+  return info;
+}
+
+SystemInfo mrpt_icp_entry() {
+  SystemInfo info;
+  info.name = "mrpt-icp";
+  info.description = "MRPT's own ICP-SLAM, a third-party reference";
+  set_factory<mrpt::MrptIcpParams>(
+      info, {{"shipped", "as MRPT's classic example is configured", {}}},
+      [](const mrpt::MrptIcpParams& params, const SystemRequest& request) -> SystemResult {
+        return mrpt::make_mrpt_icp(params, request.robot);
+      });
+  return info;
+}
+
+SystemInfo mrpt_rbpf_entry() {
+  SystemInfo info;
+  info.name = "mrpt-rbpf";
+  info.description = "MRPT's own RBPF-SLAM with optimal sampling, a third-party reference";
+  info.is_stochastic = true;
+  set_factory<mrpt::MrptRbpfParams>(
+      info, {{"shipped", "as MRPT's grid mapping example is configured", {}}},
+      [](const mrpt::MrptRbpfParams& params, const SystemRequest& request) -> SystemResult {
+        return mrpt::make_mrpt_rbpf(params, request.robot, rng_of(request));
       });
   return info;
 }
@@ -93,7 +120,8 @@ bool SystemInfo::has_profile(std::string_view profile) const {
 }
 
 std::vector<SystemInfo> systems() {
-  return {gmapping_entry(), karto_entry(), fusion_paper_entry(), fusion_entry()};
+  return {gmapping_entry(),  karto_entry(),        mrpt_icp_entry(),
+          mrpt_rbpf_entry(), fusion_paper_entry(), fusion_entry()};
 }
 
 Result<SystemInfo> find_system(std::string_view name) {
