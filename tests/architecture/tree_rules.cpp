@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <set>
 #include <string_view>
 
@@ -117,6 +118,24 @@ std::vector<std::string> sources_outside_the_build(const SourceTree& tree) {
   for (const SourceFile& file : tree.files) {
     if (file.path.ends_with(".cpp") && !is_in_build(tree, file)) {
       found.push_back(at_line(file, 1, "no CMakeLists.txt names this file"));
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> broken_links(const SourceTree& tree) {
+  std::vector<std::string> found;
+  for (const SourceFile& file : tree.files) {
+    if (file.extension() != ".md") continue;
+    for (std::size_t index = 0; index < file.lines.size(); ++index) {
+      const std::string& line = file.lines[index];
+      for (std::size_t at = line.find("]("); at != std::string::npos;
+           at = line.find("](", at + 1)) {
+        const std::string target = line.substr(at + 2, line.find_first_of(")#", at + 2) - at - 2);
+        if (target.empty() || target.find("://") != std::string::npos) continue;
+        if (std::filesystem::exists(tree.root / file.folder() / target)) continue;
+        found.push_back(at_line(file, index + 1, "leads nowhere: " + target));
+      }
     }
   }
   return found;

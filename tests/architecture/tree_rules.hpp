@@ -27,6 +27,9 @@ std::vector<std::string> headers_without_pragma_once(const SourceTree& tree);
 // Source files that no CMakeLists.txt in their folder or above names: dead files.
 std::vector<std::string> sources_outside_the_build(const SourceTree& tree);
 
+// Relative links of Markdown files that lead to no file or folder.
+std::vector<std::string> broken_links(const SourceTree& tree);
+
 // Marks of unfinished work and paths of one machine, in any text file.
 std::vector<std::string> forbidden_words(const SourceTree& tree);
 

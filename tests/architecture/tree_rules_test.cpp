@@ -38,6 +38,10 @@ TEST(TreeRules, EverySourceIsInTheBuild) {
   EXPECT_THAT(sources_outside_the_build(checkout()), IsEmpty());
 }
 
+TEST(TreeRules, EveryLinkOfAReadmeLeadsSomewhere) {
+  EXPECT_THAT(broken_links(checkout()), IsEmpty());
+}
+
 TEST(TreeRules, NothingIsMarkedAsUnfinishedAndNoPathOfOneMachineIsNamed) {
   EXPECT_THAT(forbidden_words(checkout()), IsEmpty());
 }
@@ -94,6 +98,15 @@ TEST(TreeRules, FindsASourceThatIsNotBuiltEvenIfItsNameEndsAnother) {
   folder.write("slam/core/deep/b.cpp", "");
   EXPECT_THAT(sources_outside_the_build(read_source_tree(folder.path())),
               ElementsAre(HasSubstr("slam/core/pose.cpp")));
+}
+
+TEST(TreeRules, FindsALinkThatLeadsNowhere) {
+  const ScratchFolder folder;
+  folder.write("slam/README.md", "[a](core/a.hpp) [b](../README.md#top) [c](#here)\n");
+  folder.write("README.md", "[web](https://example.org/x) and [gone](slam/gone.md)\n");
+  folder.write("slam/core/a.hpp", "");
+  EXPECT_THAT(broken_links(read_source_tree(folder.path())),
+              ElementsAre("README.md:1: leads nowhere: slam/gone.md"));
 }
 
 TEST(TreeRules, FindsMarksOfUnfinishedWorkAsWholeWordsAndPathsOfOneMachine) {
