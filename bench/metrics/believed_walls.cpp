@@ -15,6 +15,7 @@ constexpr double kHighPercent = 84;
 std::vector<double> project(const std::vector<Eigen::Vector2d>& points_m,
                             const Eigen::Vector2d& direction) {
   std::vector<double> positions_m;
+  positions_m.reserve(points_m.size());
   for (const auto& point_m : points_m) positions_m.push_back(direction.dot(point_m));
   return positions_m;
 }

@@ -29,7 +29,7 @@ Trajectory expected_poses(const CaseEvidence& evidence, const ScoringOptions& op
   if (evidence.scan_stamps.empty()) {
     return evidence.truth_world != nullptr ? *evidence.truth_world : Trajectory();
   }
-  const Trajectory scans = at_stamps(evidence.scan_stamps);
+  Trajectory scans = at_stamps(evidence.scan_stamps);
   if (evidence.truth_world == nullptr) return scans;
   const auto matched =
       associate(scans, *evidence.truth_world, options.association, options.max_dt_s);

@@ -157,6 +157,7 @@ std::optional<WallSurvey::ExpectedWall> WallSurvey::expect(const WallStretch& st
   std::sort(order.begin(), order.end());
   if (order.empty() || order.back().first - order.front().first < kMinSeen_m) return std::nullopt;
   std::vector<Eigen::Vector2d> points_map_m;
+  points_map_m.reserve(order.size());
   for (const auto& [along_m, k] : order) points_map_m.push_back(points_[k].point_map_m);
   expected.T_map_wall = frame_through(points_map_m);
   expected.disagreement_m = median_of(disagreements_m);
