@@ -1,0 +1,43 @@
+// What the tests of the simulator share: random corridors, and figures measured on a log.
+#pragma once
+
+#include <vector>
+
+#include "datasets/simulation/scenario.hpp"
+#include "datasets/simulation/world.hpp"
+#include "slam/core/rng.hpp"
+#include "slam/core/sensor_log.hpp"
+
+namespace corridor::simulation::testing {
+
+// Any corridor that can be drawn: alpha from 35 to 145 deg, doors in half of them.
+CorridorShape random_shape(Rng& rng);
+
+// A point inside the corridor, at least 5 cm from its walls.
+Eigen::Vector2d random_point_inside(const CorridorShape& shape, Rng& rng);
+
+// Distance from a point to the nearest wall [m].
+double clearance_m(const World& world, const Eigen::Vector2d& point_m);
+
+double mean(const std::vector<double>& values);
+double standard_deviation(const std::vector<double>& values);
+double median(std::vector<double> values);
+
+// A scenario file of datasets/scenarios/, which must be readable.
+Scenario shipped_scenario(const std::string& name);
+
+// Figures of a log that need nothing but the log and its truth at the scans.
+struct LogFigures {
+  double duration_s = 0;
+  double path_length_m = 0;
+  double cruising_speed_mps = 0;  // median between scans
+  double no_return_share = 0;     // of all beams
+  double wheel_path_ratio = 0;    // odometry path / true path, while driving
+  double gyro_noise_radps = 0;    // from differences of neighbouring samples
+  double accel_noise_mps2 = 0;
+  double tick_noise_m = 0;               // one wheel's increment per sample, while cruising
+  double initial_heading_error_rad = 0;  // between the first pose and the first arm
+};
+LogFigures figures_of(const SensorLog& log);
+
+}  // namespace corridor::simulation::testing

@@ -1,0 +1,75 @@
+#include "datasets/simulation/truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/simulation/simulate.hpp"
+#include "tests/datasets/simulation/simulation_support.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace corridor::simulation::testing {
+namespace {
+
+using ::corridor::testing::ScratchFolder;
+
+// As another simulator of the same suite wrote it: no list of degenerate intervals.
+constexpr const char* kForeignTruth =
+    "[world]\na_m = 14.500000\nb_m = 21.000000\nc_m = 5.000000\nalpha_deg = 90.0\n"
+    "doors_every_m = 0\n"
+    "[start]\nx_m = 2.380100\ny_m = 2.798843\nyaw_rad = -0.346314\n"
+    "[wheels]\nleft_scale = 1.000012\nright_scale = 0.998519\n"
+    "slips = [{ begin_s = 15.195, end_s = 16.195, ratio = 0.6 }]\n"
+    "[imu]\ngyro_bias_radps = 0.004021\naccel_bias_x_mps2 = -0.01477\n"
+    "accel_bias_y_mps2 = -0.01861\n"
+    "[lidar]\nrange_max_m = 4.5\nrange_sigma_m = 0.015\n";
+
+TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
+  const ScratchFolder folder;
+  const Simulated simulated = simulate(shipped_scenario("paper-corridor-slip"), 5);
+  const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
+  ASSERT_TRUE(again) << again.error().to_line();
+  EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
+  EXPECT_EQ(again->left_scale, simulated.truth.left_scale);
+  EXPECT_EQ(again->T_world_base_start, simulated.truth.T_world_base_start);
+  EXPECT_EQ(again->slips.size(), 3u);
+  EXPECT_EQ(again->slips[1].begin_s, simulated.truth.slips[1].begin_s);
+  ASSERT_TRUE(again->degenerate);
+  EXPECT_EQ(again->degenerate->size(), simulated.truth.degenerate->size());
+}
+
+TEST(Truth, IsTheWorldFileOfItsLog) {
+  const ScratchFolder folder;
+  const Simulated simulated = simulate(shipped_scenario("paper-corridor-vary"), 5);
+  const auto world = read_world(folder.write("log.truth.toml", truth_toml(simulated)));
+  ASSERT_TRUE(world) << world.error().to_line();
+  EXPECT_EQ(world->corridor->b_m, simulated.truth.world.b_m);
+}
+
+TEST(Truth, OfAnotherSimulatorIsReadWithoutDegenerateIntervals) {
+  const ScratchFolder folder;
+  const auto truth = read_truth(folder.write("log.truth.toml", kForeignTruth));
+  ASSERT_TRUE(truth) << truth.error().to_line();
+  EXPECT_FALSE(truth->degenerate);
+  EXPECT_EQ(truth->right_scale, 0.998519);
+  EXPECT_EQ(truth->slips.size(), 1u);
+  EXPECT_EQ(truth->slips[0].ratio, 0.6);
+}
+
+TEST(Truth, NamesUnknownKeysMissingTablesAndBadListsWithTheirLines) {
+  const ScratchFolder folder;
+  const auto truth = read_truth(folder.write("log.truth.toml",
+                                             "[world]\na_m = 1\nb_m = 1\nc_m = 1\n"
+                                             "alpha_deg = 90\ndoors_every_m = 0\nd_m = 3\n"
+                                             "[wheels]\nleft_scale = 1\nright_scale = 1\n"
+                                             "slips = [{ begin_s = 1, end_s = 2 }]\n"
+                                             "[imu]\ngyro_bias_radps = 0\n"
+                                             "accel_bias_x_mps2 = 0\naccel_bias_y_mps2 = 0\n"
+                                             "[lidar]\nrange_max_m = 4\nrange_sigma_m = 0\n"));
+  ASSERT_FALSE(truth);
+  const std::string error = truth.error().to_line();
+  EXPECT_NE(error.find(":7: unknown key world.d_m"), std::string::npos) << error;
+  EXPECT_NE(error.find(":11: wheels.slips.ratio is missing"), std::string::npos) << error;
+  EXPECT_NE(error.find("no table [start]"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace corridor::simulation::testing
