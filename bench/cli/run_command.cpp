@@ -48,11 +48,14 @@ void replace_data(const std::vector<std::string>& datasets, runner::Suite& suite
   }
 }
 
-Result<ExitCode> finish(const runner::RunSummary& summary) {
+// Says how it went; the exit code.
+ExitCode finish(const runner::RunSummary& summary, const std::string& what_was_done,
+                const CommonOptions& common) {
   if (summary.is_interrupted) {
     std::fputs("corridor-bench: interrupted; --resume goes on where it stopped\n", stderr);
     return runner::kExitNo;
   }
+  common.say(what_was_done);
   return summary.num_failed == 0 ? runner::kExitDone : runner::kExitNo;
 }
 
@@ -147,9 +150,10 @@ Result<ExitCode> RunCommand::run(const ReportWriter& write_report) const {
     const Result<void> written = write_report({options.out}, options.out);
     if (!written) return tl::make_unexpected(written.error());
   }
-  common.say(fmt::format("{} cases, {} kept from before, {} failed: {}", summary->num_cases,
-                         summary->num_kept, summary->num_failed, options.out.string()));
-  return finish(*summary);
+  return finish(*summary,
+                fmt::format("{} cases, {} kept from before, {} failed: {}", summary->num_cases,
+                            summary->num_kept, summary->num_failed, options.out.string()),
+                common);
 }
 
 }  // namespace corridor::cli
