@@ -8,7 +8,7 @@ namespace corridor::karto {
 struct KartoParams {
   // Key scans and the running buffer.
   double min_travel_distance_m = 0.2;
-  double min_travel_heading_rad = 0.17453292519943295;  // 10 deg
+  double min_travel_heading_rad = 0.174;  // 10 deg, rounded as shipped
   double min_time_interval_s = 3600;
   int buffer_size_scans = 70;
   double buffer_max_distance_m = 20;

@@ -186,10 +186,9 @@ class KartoSlam::Impl {
     const auto id = static_cast<KeyScanId>(num_passed - 1);
     if (records_[record].key_scan) return anchor(id).T_map_base;
     if (num_passed == key_records.size()) return anchor(id).carried_to(T_odom_base);
-    const Timestamp earlier = records_[key_records[id]].stamp;
-    const Timestamp later = records_[key_records[id + 1]].stamp;
-    const double ratio =
-        seconds_between(earlier, records_[record].stamp) / seconds_between(earlier, later);
+    // By the scan's number, not its stamp: every scan takes an equal share of the correction.
+    const auto passed = static_cast<double>(record - key_records[id]);
+    const double ratio = passed / static_cast<double>(key_records[id + 1] - key_records[id]);
     return pose_between(anchor(id), anchor(id + 1), ratio, T_odom_base);
   }
 

@@ -4,6 +4,19 @@
 #include <limits>
 
 namespace corridor::karto {
+namespace {
+
+// Ranges are kept in single precision; whole tenths of a millimetre, finer than any LiDAR states,
+// give back the decimal that the sensor said. Matching has near ties that 1e-7 m decides.
+constexpr double kRangeQuanta_per_m = 1e4;
+// A longer raw range is no end point at all.
+constexpr double kMaxRawRange_m = 1e4;
+
+double undo_single_precision(float range_m) {
+  return std::round(static_cast<double>(range_m) * kRangeQuanta_per_m) / kRangeQuanta_per_m;
+}
+
+}  // namespace
 
 KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, const KeyScanOptions& options)
     : stamp_(scan.stamp),
@@ -15,9 +28,9 @@ KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, const KeyScanO
   is_in_range_.resize(num_beams);
   is_return_.resize(num_beams);
   for (std::size_t i = 0; i < num_beams; ++i) {
-    const double range_m = scan.ranges_m[i];
+    const double range_m = undo_single_precision(scan.ranges_m[i]);
     const double angle_rad = scan.angle_rad(i);
-    const bool is_finite = std::isfinite(range_m);
+    const bool is_finite = std::abs(range_m) <= kMaxRawRange_m;  // false for NaN
     is_return_[i] = is_finite && scan.is_valid[i] != 0;
     is_in_range_[i] = is_return_[i] && range_m <= options.range_threshold_m;
     if (is_in_range_[i]) ++num_in_range_;
