@@ -50,6 +50,9 @@ struct FusionParams {
   double lidar_sigma_m = 0.01;             // the paper's constant LiDAR noise
   double lidar_sigma_rad = 0.003;
 
+  double match_prior_sigma_m = 0.1;        // least width of the prediction while matching
+  double match_prior_sigma_rad = 0.05;
+  double jump_inlier_ratio = 0.8;          // a match that contradicts the prediction must explain this much
   double retry_inlier_ratio = 0.7;         // fewer explained points: search the window
   double retry_window_m = 0.8;
   double retry_window_rad = 0.3;
@@ -111,6 +114,9 @@ void FusionParams::visit(FusionParams& p, V&& v) {
   v(I{"degeneracy_travel_m", "m", "the paper's LiDAR test: travel between the compared scans", 0.01, 10}, p.degeneracy_travel_m);
   v(I{"lidar_sigma_m", "m", "the paper's LiDAR constraint: standard deviation", 1e-4, 1}, p.lidar_sigma_m);
   v(I{"lidar_sigma_rad", "rad", "the paper's LiDAR constraint: standard deviation", 1e-5, 1}, p.lidar_sigma_rad);
+  v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching", 1e-3, 10}, p.match_prior_sigma_m);
+  v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching", 1e-3, 3}, p.match_prior_sigma_rad);
+  v(I{"jump_inlier_ratio", "1", "smallest share of explained points of a match that contradicts the prediction", 0, 1}, p.jump_inlier_ratio);
   v(I{"retry_inlier_ratio", "1", "with fewer explained points the window is searched", 0, 1}, p.retry_inlier_ratio);
   v(I{"retry_window_m", "m", "half width of that window", 0, 10}, p.retry_window_m);
   v(I{"retry_window_rad", "rad", "half width of that window", 0, 3.2}, p.retry_window_rad);
@@ -126,6 +132,8 @@ void FusionParams::visit(FusionParams& p, V&& v) {
   v(I{"loop_gate", "1", "chi-square beyond which a closure is taken out after solving", 1, 1e6}, p.loop_gate);
   matching::MatcherParams::visit(p.matcher, v);
   matching::ObservabilityParams::visit(p.observability, v);
+  matching::CorrelativeParams::visit(p.correlative, v);
+  mapping::OccupancyMapperParams::visit(p.map, v);
 }
 
 }  // namespace corridor::fusion

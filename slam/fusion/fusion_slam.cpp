@@ -58,6 +58,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     {
       const auto stage = stage_clock().enter(Stage::kOptimise);
       last_report_ = back_end_->solve();
+      num_relinearized_ += last_report_.num_relinearized;
     }
     result.trajectory = smoothed_trajectory();
     {
@@ -144,10 +145,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     const Pose2 before = T_map_base_;
     T_map_base_ = T_map_submap * tracked.T_submap_base;
     path_m_ += (T_map_base_.translation_m() - before.translation_m()).norm();
-    if (tracked.normalized_square) {
-      const double adapted = *tracked.normalized_square / (wheel_noise_.factor() * wheel_noise_.factor());
-      is_wheel_jump_ = is_wheel_jump_ || 3 * adapted > params_.slip_gate;
-      if (params_.use_directional_degeneracy) wheel_noise_.observe(*tracked.normalized_square);
+    if (tracked.chi2 && tracked.degrees_of_freedom > 0) {
+      is_wheel_jump_ = is_wheel_jump_ || *tracked.chi2 > params_.slip_gate;
+      if (params_.use_directional_degeneracy) {
+        wheel_noise_.observe(*tracked.chi2 / tracked.degrees_of_freedom);
+      }
     }
     return tracked;
   }
@@ -197,6 +199,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       const graph::Values values = initial_values(interval);
       const auto optimise = stage_clock().enter(Stage::kOptimise);
       last_report_ = back_end_->update(std::move(factors), values, {});
+      num_relinearized_ += last_report_.num_relinearized;
     }
     if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
     key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), path_m_});

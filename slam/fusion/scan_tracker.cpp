@@ -6,9 +6,6 @@
 namespace corridor::fusion {
 namespace {
 
-// A search must explain this much more of the scan than the prediction's own match to be believed.
-constexpr double kMinImprovement = 0.1;
-
 matching::MatchResult match_or_search(Submap& submap, std::span<const Eigen::Vector2d> points_base,
                                       const Pose2& T_predicted, const Eigen::Matrix3d& information,
                                       double range_sigma_m, const FusionParams& params) {
@@ -19,19 +16,34 @@ matching::MatchResult match_or_search(Submap& submap, std::span<const Eigen::Vec
   matching::MatchResult searched =
       submap.search(points_base, T_predicted, params.retry_window_m, params.retry_window_rad,
                     Eigen::Matrix3d::Zero(), range_sigma_m);
-  const bool is_better =
-      searched.is_usable() && searched.inlier_ratio > direct.inlier_ratio + kMinImprovement;
+  const bool is_better = searched.is_usable() && searched.inlier_ratio > direct.inlier_ratio &&
+                         searched.inlier_ratio >= params.jump_inlier_ratio;
   return is_better ? searched : direct;
 }
 
-std::optional<double> innovation_square(const Pose2& T_predicted,
-                                        const matching::ObservableMatch& match,
-                                        const Prediction& prediction) {
-  if (match.num_observable < 3 || !prediction.has_wheels) return std::nullopt;
+// Prediction's covariance as the match needs it: at least this wide.
+Eigen::Matrix3d loose_information(const Prediction& prediction, const FusionParams& params) {
+  const double translation_m2 = params.match_prior_sigma_m * params.match_prior_sigma_m;
+  const double rotation_rad2 = params.match_prior_sigma_rad * params.match_prior_sigma_rad;
+  const Eigen::Vector3d least(translation_m2, translation_m2, rotation_rad2);
+  return prediction.covariance.diagonal().cwiseMax(least).cwiseInverse().asDiagonal();
+}
+
+struct Fused {
+  Pose2 T_submap_base;
+  double chi2 = 0;
+};
+
+// Kalman update in information form; directions with zero information stay as predicted. chi2 is the
+// innovation's, (L^+ + Q)^-1 by the matrix inversion lemma, L the match's information, Q the prediction's
+// covariance.
+Fused fuse(const Pose2& T_predicted, const matching::ObservableMatch& match,
+           const Eigen::Matrix3d& covariance) {
   const Pose2::Tangent innovation = match.T_map_base.minus(T_predicted);
-  // The pose at the last scan came from a match of the same kind: its covariance counts once more.
-  const Eigen::Matrix3d covariance = 2 * match.information.inverse() + prediction.covariance;
-  return innovation.dot(covariance.llt().solve(innovation)) / 3;
+  const Eigen::Vector3d pull = match.information * innovation;
+  const Eigen::Vector3d gain =
+      (match.information + Eigen::Matrix3d(covariance.inverse())).ldlt().solve(pull);
+  return {T_predicted.plus(gain), innovation.dot(pull) - pull.dot(gain)};
 }
 
 }  // namespace
@@ -43,12 +55,32 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
   TrackedScan tracked;
   tracked.T_submap_base = T_predicted;
   const matching::MatchResult match =
-      match_or_search(submap, points_base_m, T_predicted, prediction.covariance.inverse(),
+      match_or_search(submap, points_base_m, T_predicted, loose_information(prediction, params),
                       robot.lidar.range_sigma_m, params);
   if (!match.is_usable()) return tracked;
-  tracked.T_submap_base = match.T_map_base;
   tracked.match = matching::observable_part(match, params.observability);
-  tracked.normalized_square = innovation_square(T_predicted, *tracked.match, prediction);
+  // The pose at the last scan came from a match of the same kind: its error counts too.
+  Eigen::Vector3d last_match(params.observability.translation_floor_m,
+                             params.observability.translation_floor_m,
+                             params.observability.rotation_floor_rad);
+  Eigen::Matrix3d covariance = prediction.covariance;
+  covariance.diagonal() += last_match.cwiseAbs2();
+  Fused fused = fuse(T_predicted, *tracked.match, covariance);
+  if (prediction.has_wheels) {
+    tracked.chi2 = fused.chi2;
+    tracked.degrees_of_freedom = tracked.match->num_observable;
+  }
+  const bool is_jump = fused.chi2 > params.slip_gate;
+  if (is_jump && match.inlier_ratio < params.jump_inlier_ratio) {
+    // Either the scan is spoilt (somebody stands before it) or the wheels jumped: the next scan tells.
+    return TrackedScan{T_predicted, std::nullopt, std::nullopt, 0};
+  }
+  // Wheels that jumped do not hold the scan back.
+  if (is_jump) {
+    fused = fuse(T_predicted, *tracked.match, covariance * fused.chi2);
+  }
+  tracked.T_submap_base = fused.T_submap_base;
+  if (!params.use_directional_degeneracy) tracked.match->T_map_base = fused.T_submap_base;
   return tracked;
 }
 

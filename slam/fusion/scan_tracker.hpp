@@ -17,12 +17,14 @@ namespace corridor::fusion {
 struct TrackedScan {
   Pose2 T_submap_base;                               // scan and prediction together
   std::optional<matching::ObservableMatch> match;    // the scan's own say; none if it did not fit
-  // Innovation of the LiDAR against the prediction over its covariance and degrees of freedom, where
-  // the scan sees every direction and the prediction came from wheels.
-  std::optional<double> normalized_square;
+  // Chi-square of the LiDAR against the prediction along the directions the scan sees, and their number;
+  // only where the prediction came from wheels.
+  std::optional<double> chi2;
+  int degrees_of_freedom = 0;
 };
 
-// T_submap_last: pose at the last scan.
+// T_submap_last: pose at the last scan. The match starts from the prediction but is held by it only
+// loosely, so that wheels which jump do not hold the scan back; what the scan does not see stays predicted.
 TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_base_m,
                        const Pose2& T_submap_last, const Prediction& prediction,
                        const RobotModel& robot, const FusionParams& params);

@@ -101,7 +101,7 @@ SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
 }
 
 void WheelNoiseAdapter::observe(double normalized_square) {
-  const double limited = std::min(normalized_square, kMaxSingleSquare * factor() * factor());
+  const double limited = std::min(normalized_square, kMaxSingleSquare) * square(factor());
   mean_square_ += kAdaptationRate * (limited - mean_square_);
 }
 

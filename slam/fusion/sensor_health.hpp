@@ -53,7 +53,7 @@ class WheelNoiseAdapter {
  public:
   explicit WheelNoiseAdapter(double max_factor) : max_factor_(max_factor) {}
 
-  // normalized_square: innovation^T S^-1 innovation over its degrees of freedom.
+  // normalized_square: innovation^T S^-1 innovation over its degrees of freedom, S with the present factor.
   void observe(double normalized_square);
   [[nodiscard]] double factor() const;
 

@@ -19,9 +19,9 @@ struct CorrelativeParams {
 
   template <class V>
   static void visit(CorrelativeParams& p, V&& v) {
-    v(ParamInfo{"resolution_m", "m", "side of a cell and step of the search", 0.01, 1}, p.resolution_m);
-    v(ParamInfo{"smear_m", "m", "width of a surface in the image", 0.01, 2}, p.smear_m);
-    v(ParamInfo{"angle_step_rad", "rad", "step of the search", 0.001, 0.5}, p.angle_step_rad);
+    v(ParamInfo{"search_resolution_m", "m", "side of a cell and step of the search", 0.01, 1}, p.resolution_m);
+    v(ParamInfo{"search_smear_m", "m", "width of a surface in the image", 0.01, 2}, p.smear_m);
+    v(ParamInfo{"search_angle_step_rad", "rad", "step of the search", 0.001, 0.5}, p.angle_step_rad);
   }
 };
 

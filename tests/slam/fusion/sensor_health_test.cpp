@@ -111,7 +111,7 @@ TEST(WheelNoiseAdapter, LearnsThatTheWheelsAreFourTimesWorse) {
   for (int i = 0; i < 2000; ++i) {
     double square = 0;
     for (int k = 0; k < 3; ++k) square += std::pow(rng.normal(0, 4), 2);
-    adapter.observe(square / 3);
+    adapter.observe(square / 3 / (adapter.factor() * adapter.factor()));
   }
   EXPECT_NEAR(adapter.factor(), 4, 1);
 }
