@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "datasets/simulation/ray_casting.hpp"
 #include "tests/datasets/simulation/simulation_support.hpp"
 
 namespace corridor::simulation::testing {
@@ -194,6 +195,30 @@ TEST(Simulate, ImuIntegratesToTheTrueMotion) {
   // walk integrates to 11 mm/s * 10 s / sqrt(3) = 65 mm, the heading's over 4.5 m to 6 mm. Times 4.
   EXPECT_NEAR(wrap_angle(heading_rad - truth.theta_rad()), 0, 4 * 0.0022);
   EXPECT_LT((position_m - truth.translation_m()).norm(), 4 * 0.065);
+}
+
+TEST(Simulate, RangeNoiseIsNewInEveryScan) {
+  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 1);
+  const RayCaster caster(simulated.world);
+  const auto scans = readings<LaserScan>(simulated.log);
+  const double sigma_m = simulated.truth.range_sigma_m;
+  const auto error_sigmas = [&](std::size_t scan_index, std::size_t beam_index) {
+    const Pose2& T_world_base = (*simulated.log.truth)[scan_index].T_map_base;
+    const LaserScan& scan = scans[scan_index];
+    const auto range_m =
+        caster.range_m(T_world_base.translation_m(),
+                       T_world_base.theta_rad() + scan.angle_rad(beam_index), scan.range_max_m);
+    return (scan.ranges_m[beam_index] - *range_m) / sigma_m;
+  };
+  double sum = 0;
+  double num_pairs = 0;
+  for (std::size_t k = 0; k < 100; ++k) {
+    // The 60 beams to the left, which always meet the wall 2 to 3 m away.
+    for (std::size_t i = 240; i < 300; ++i, ++num_pairs) {
+      sum += error_sigmas(k, i) * error_sigmas(k + 1, i);
+    }
+  }
+  EXPECT_LT(std::abs(sum / num_pairs), 5 / std::sqrt(num_pairs));
 }
 
 TEST(Simulate, CentripetalAccelerationShowsAtTheCorner) {
