@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "baselines/dead_reckoning/dead_reckoning.hpp"
 #include "baselines/gmapping/gmapping_slam.hpp"
 #include "baselines/karto/karto_slam.hpp"
 #include "baselines/mrpt/mrpt_icp.hpp"
@@ -52,6 +53,21 @@ SystemInfo karto_entry() {
   return info;
 }
 
+SystemInfo dead_reckoning_entry(bool use_gyro) {
+  SystemInfo info;
+  info.name = use_gyro ? "dead-reckoning-gyro" : "dead-reckoning";
+  info.description = use_gyro ? "the wheels' path with the gyro's heading, no map"
+                              : "the wheels alone, no map: the floor";
+  info.needs_imu = use_gyro;
+  dead_reckoning::DeadReckoningParams defaults;
+  defaults.use_gyro = use_gyro;
+  set_factory<dead_reckoning::DeadReckoningParams>(
+      info, {{"default", "the defaults", defaults}},
+      [](const dead_reckoning::DeadReckoningParams& params, const SystemRequest& request)
+          -> SystemResult { return dead_reckoning::make_dead_reckoning(params, request.robot); });
+  return info;
+}
+
 SystemInfo mrpt_icp_entry() {
   SystemInfo info;
   info.name = "mrpt-icp";
@@ -87,6 +103,7 @@ SystemInfo fusion_paper_entry() {
   SystemInfo info;
   info.name = "fusion-paper";
   info.description = "LiDAR, IMU and wheels in a factor graph, as published";
+  info.needs_imu = true;
   info.default_backend = "gauss-newton";
   set_factory<fusion::FusionParams>(
       info, {{"published", "the published method", fusion::fusion_paper_params()}},
@@ -120,8 +137,14 @@ bool SystemInfo::has_profile(std::string_view profile) const {
 }
 
 std::vector<SystemInfo> systems() {
-  return {gmapping_entry(),  karto_entry(),        mrpt_icp_entry(),
-          mrpt_rbpf_entry(), fusion_paper_entry(), fusion_entry()};
+  return {dead_reckoning_entry(false),
+          dead_reckoning_entry(true),
+          gmapping_entry(),
+          karto_entry(),
+          mrpt_icp_entry(),
+          mrpt_rbpf_entry(),
+          fusion_paper_entry(),
+          fusion_entry()};
 }
 
 Result<SystemInfo> find_system(std::string_view name) {
