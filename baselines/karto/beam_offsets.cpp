@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "baselines/karto/round_cells.hpp"
+
 namespace corridor::karto {
 
 void fill_beam_offsets(std::span<const Eigen::Vector2d> beams_sensor_m, double heading_rad,
@@ -16,8 +18,8 @@ void fill_beam_offsets(std::span<const Eigen::Vector2d> beams_sensor_m, double h
     const double column = c * beam_m.x() - s * beam_m.y();
     const double row = s * beam_m.x() + c * beam_m.y();
     if (!(std::abs(row) < limit_cells && std::abs(column) < grid.num_cells())) continue;
-    const auto column_cells = static_cast<std::int32_t>(std::lround(column));
-    const auto row_cells = static_cast<std::int32_t>(std::lround(row));
+    const auto column_cells = round_to_cell(column);
+    const auto row_cells = round_to_cell(row);
     offsets.push_back({column_cells + row_cells * grid.stride(), column_cells});
   }
 }

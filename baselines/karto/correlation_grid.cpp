@@ -1,7 +1,11 @@
 #include "baselines/karto/correlation_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+
+#include "baselines/karto/round_cells.hpp"
 
 namespace corridor::karto {
 namespace {
@@ -9,6 +13,16 @@ namespace {
 constexpr int kRowAlignment_cells = 8;
 
 int round_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
+
+// Copies in and out tell the compiler that the two do not overlap: one vector maximum.
+void merge_block(std::uint8_t* cells, const std::uint8_t* values) {
+  std::array<std::uint8_t, SmearKernel::kBlock> merged;
+  std::array<std::uint8_t, SmearKernel::kBlock> stamp;
+  std::memcpy(merged.data(), cells, merged.size());
+  std::memcpy(stamp.data(), values, stamp.size());
+  for (std::size_t i = 0; i < merged.size(); ++i) merged[i] = std::max(merged[i], stamp[i]);
+  std::memcpy(cells, merged.data(), merged.size());
+}
 
 }  // namespace
 
@@ -33,7 +47,7 @@ void CorrelationGrid::reset(const Eigen::Vector2d& centre_map_m) {
 
 Eigen::Vector2i CorrelationGrid::cell_of(const Eigen::Vector2d& point_map_m) const {
   const Eigen::Vector2d cell = (point_map_m - corner_map_m_) / resolution_m_;
-  return {static_cast<int>(std::lround(cell.x())), static_cast<int>(std::lround(cell.y()))};
+  return {round_to_cell(cell.x()), round_to_cell(cell.y())};
 }
 
 void CorrelationGrid::add_points(std::span<const Eigen::Vector2d> points_map_m) {
@@ -54,16 +68,19 @@ void CorrelationGrid::stamp(std::int32_t centre_index) {
   const std::uint8_t* values = kernel_.values.data();
   for (int y = 0; y < kernel_.side; ++y, row += stride_, values += kernel_.stride) {
     for (int block = 0; block < kernel_.stride; block += SmearKernel::kBlock) {
-      for (int x = block; x < block + SmearKernel::kBlock; ++x) {
-        row[x] = std::max(row[x], values[x]);
-      }
+      merge_block(row + block, values + block);
     }
   }
 }
 
+// Whole blocks: what lies beside the stamp is erased as well, sooner or later.
 void CorrelationGrid::erase(std::int32_t centre_index) {
   std::uint8_t* row = bytes_.data() + kMargin + first_of_stamp(centre_index);
-  for (int y = 0; y < kernel_.side; ++y, row += stride_) std::fill_n(row, kernel_.side, 0);
+  for (int y = 0; y < kernel_.side; ++y, row += stride_) {
+    for (int block = 0; block < kernel_.stride; block += SmearKernel::kBlock) {
+      std::memset(row + block, 0, SmearKernel::kBlock);
+    }
+  }
 }
 
 }  // namespace corridor::karto
