@@ -62,9 +62,9 @@ class DeadReckoning final : public SlamSystem {
   }
 
   bool has_moved() const {
-    return first_T_odom_base_ && (last_T_odom_base_.translation_m() -
-                                  first_T_odom_base_->translation_m())
-                                         .norm() > params_.standstill_distance_m;
+    return first_T_odom_base_ &&
+           (last_T_odom_base_.translation_m() - first_T_odom_base_->translation_m()).norm() >
+               params_.standstill_distance_m;
   }
 
   void fix_bias() {
@@ -119,7 +119,7 @@ class DeadReckoning final : public SlamSystem {
 
   std::optional<Pose2> first_T_odom_base_;
   Pose2 last_T_odom_base_;
-  std::optional<Pose2> scan_T_odom_base_;   // at the last scan
+  std::optional<Pose2> scan_T_odom_base_;  // at the last scan
   double scan_turned_rad_ = 0;
   Pose2 T_map_base_;
   SlamEstimate estimate_;

@@ -15,22 +15,22 @@
 namespace corridor::backend {
 
 enum class SolveStatus {
-  kConverged,       // a step or the decrease of chi2 fell below its threshold
-  kMaxIterations,   // stopped by the iteration limit; the estimate is usable
-  kRankDeficient,   // some variables are undetermined; the estimate did not change
-  kNotFinite,       // a residual or Jacobian is not finite; the estimate did not change
-  kEmpty,           // nothing to solve
+  kConverged,      // a step or the decrease of chi2 fell below its threshold
+  kMaxIterations,  // stopped by the iteration limit; the estimate is usable
+  kRankDeficient,  // some variables are undetermined; the estimate did not change
+  kNotFinite,      // a residual or Jacobian is not finite; the estimate did not change
+  kEmpty,          // nothing to solve
 };
 std::string to_text(SolveStatus status);
 
 struct BackEndReport {
   SolveStatus status = SolveStatus::kEmpty;
   int num_iterations = 0;
-  double chi2_initial = 0;   // after adding, before solving
+  double chi2_initial = 0;  // after adding, before solving
   double chi2 = 0;
   std::int64_t num_factors = 0;
   std::int64_t num_variables = 0;
-  std::int64_t num_relinearized = 0;   // variables moved by this update, summed over iterations
+  std::int64_t num_relinearized = 0;  // variables moved by this update, summed over iterations
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
 };
 

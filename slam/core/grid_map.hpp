@@ -10,7 +10,7 @@ namespace corridor {
 // What one cell knows.
 struct GridCell {
   float log_odds = 0;  // ln(p / (1 - p)) of being occupied; 0 = as likely as not
-  float hits = 0;      // number (or weight) of beam end points in the cell; 0 if the mapper keeps none
+  float hits = 0;  // number (or weight) of beam end points in the cell; 0 if the mapper keeps none
   bool is_observed = false;
 
   bool operator==(const GridCell&) const = default;

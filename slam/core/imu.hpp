@@ -5,8 +5,8 @@
 
 namespace corridor {
 
-// In the IMU frame, which RobotModel places on the base. Specific force, so that a robot at rest on a
-// level floor reads zero in x and y.
+// In the IMU frame, which RobotModel places on the base. Specific force, so that a robot at rest on
+// a level floor reads zero in x and y.
 struct ImuSample {
   Timestamp stamp;
   double gyro_z_radps = 0;

@@ -1,7 +1,8 @@
 // Parameters: one plain struct per algorithm, defaults in the struct and nowhere else.
 // A parameter struct P has a static `void visit(P& params, V&& visitor)` that calls
-// `visitor(ParamInfo, field)` for each field; help, tables, dumps, overrides and range checks follow
-// from that one list. It may add `std::vector<std::string> relations() const` for rules across fields.
+// `visitor(ParamInfo, field)` for each field; help, tables, dumps, overrides and range checks
+// follow from that one list. It may add `std::vector<std::string> relations() const` for rules
+// across fields.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,9 +22,9 @@
 namespace corridor {
 
 struct ParamInfo {
-  std::string_view name;      // snake_case with its unit
-  std::string_view unit;      // "m", "rad", "1", "" for none
-  std::string_view meaning;   // what it does and when to change it
+  std::string_view name;                                  // snake_case with its unit
+  std::string_view unit;                                  // "m", "rad", "1", "" for none
+  std::string_view meaning;                               // what it does and when to change it
   double min = -std::numeric_limits<double>::infinity();  // inclusive; numbers only
   double max = std::numeric_limits<double>::infinity();
 };
@@ -62,10 +63,14 @@ bool from_text(std::string_view text, T& value) {
 
 template <class T>
 std::string_view type_name() {
-  if constexpr (std::is_same_v<T, bool>) return "true or false";
-  else if constexpr (std::is_same_v<T, std::string>) return "text";
-  else if constexpr (std::is_integral_v<T>) return "integer";
-  else return "number";
+  if constexpr (std::is_same_v<T, bool>)
+    return "true or false";
+  else if constexpr (std::is_same_v<T, std::string>)
+    return "text";
+  else if constexpr (std::is_integral_v<T>)
+    return "integer";
+  else
+    return "number";
 }
 
 inline std::string range_text(const ParamInfo& info) {
@@ -109,9 +114,9 @@ std::vector<std::string> param_violations(P params) {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
       const double value = static_cast<double>(field);
       if (!(value >= info.min && value <= info.max) || !std::isfinite(value)) {
-        found.push_back(fmt::format("{} = {}: expected {}", info.name, field,
-                                    detail::range_text(info).empty() ? "a finite number"
-                                                                     : detail::range_text(info)));
+        found.push_back(fmt::format(
+            "{} = {}: expected {}", info.name, field,
+            detail::range_text(info).empty() ? "a finite number" : detail::range_text(info)));
       }
     }
   });
@@ -144,7 +149,8 @@ Result<P> with_overrides(P params, const ParamValues& overrides, std::string_vie
   }
   for (std::string& line : param_violations(params)) problems.push_back(std::move(line));
   if (problems.empty()) return params;
-  return fail(ErrorCode::kInvalid, fmt::format("{}", fmt::join(problems, "; ")), std::string(where));
+  return fail(ErrorCode::kInvalid, fmt::format("{}", fmt::join(problems, "; ")),
+              std::string(where));
 }
 
 }  // namespace corridor

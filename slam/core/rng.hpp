@@ -1,6 +1,7 @@
 // Random numbers that depend only on (seed, stream name, position): the counter-based generator
 // Philox4x32-10 [Salmon2011], through Random123. No global state, no distribution with memory.
-// Two streams with different names or indices never share a number, whatever order they are used in.
+// Two streams with different names or indices never share a number, whatever order they are used
+// in.
 #pragma once
 
 #include <array>

@@ -10,10 +10,10 @@
 namespace corridor {
 
 struct WheelModel {
-  double track_m = 0.35;              // distance between the wheels' contact points
+  double track_m = 0.35;  // distance between the wheels' contact points
   double left_m_per_tick = 1e-4;
   double right_m_per_tick = 1e-4;
-  double sigma_m_per_sqrt_m = 0.01;   // random error of one wheel's path, grows with its root
+  double sigma_m_per_sqrt_m = 0.01;  // random error of one wheel's path, grows with its root
 };
 
 struct LidarModel {
@@ -22,15 +22,15 @@ struct LidarModel {
   double range_max_m = 30.0;
   double range_sigma_m = 0.02;
   double scan_duration_s = 0;
-  double time_offset_s = 0;           // LiDAR clock minus wheel clock
+  double time_offset_s = 0;  // LiDAR clock minus wheel clock
 };
 
 struct ImuModel {
   Pose2 T_base_imu;
   double rate_hz = 100;
-  double gyro_noise_radps = 0.01;           // per sample, standard deviation
-  double accel_noise_mps2 = 0.05;           // per sample, standard deviation
-  double gyro_bias_walk_radps_sqrt_s = 1e-4;     // bias random walk, per root second
+  double gyro_noise_radps = 0.01;             // per sample, standard deviation
+  double accel_noise_mps2 = 0.05;             // per sample, standard deviation
+  double gyro_bias_walk_radps_sqrt_s = 1e-4;  // bias random walk, per root second
   double accel_bias_walk_mps2_sqrt_s = 1e-3;
 };
 

@@ -14,14 +14,15 @@ namespace corridor {
 
 // Beams are ordered counter-clockwise: beam i points to angle_min_rad + i * angle_increment_rad in
 // the LiDAR frame and was taken at stamp + i * duration_s / (n - 1).
-// A beam without return keeps its raw range and has is_valid[i] == 0: some systems need the raw value.
+// A beam without return keeps its raw range and has is_valid[i] == 0: some systems need the raw
+// value.
 struct LaserScan {
-  Timestamp stamp;              // of the first beam
+  Timestamp stamp;  // of the first beam
   double angle_min_rad = 0;
   double angle_increment_rad = 0;
   double range_min_m = 0;
-  double range_max_m = 0;       // the sensor's limit; a valid range is never longer
-  double duration_s = 0;        // first to last beam; 0 = all at once
+  double range_max_m = 0;  // the sensor's limit; a valid range is never longer
+  double duration_s = 0;   // first to last beam; 0 = all at once
   Pose2 T_base_lidar;
   std::vector<float> ranges_m;
   std::vector<std::uint8_t> is_valid;  // same length; 1 = a surface was hit
@@ -40,8 +41,7 @@ struct LaserScan {
   [[nodiscard]] Eigen::Vector2d point_base_m(std::size_t beam_index) const {
     const double range_m = ranges_m[beam_index];
     const double angle = angle_rad(beam_index);
-    return T_base_lidar *
-           Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    return T_base_lidar * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
   }
 };
 

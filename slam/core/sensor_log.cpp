@@ -11,8 +11,9 @@ namespace {
 
 template <class T>
 std::size_t count_of(const std::vector<SensorEvent>& events) {
-  return static_cast<std::size_t>(std::count_if(
-      events.begin(), events.end(), [](const SensorEvent& e) { return std::holds_alternative<T>(e); }));
+  return static_cast<std::size_t>(
+      std::count_if(events.begin(), events.end(),
+                    [](const SensorEvent& e) { return std::holds_alternative<T>(e); }));
 }
 
 const char* name_of(const SensorEvent& event) {
@@ -65,8 +66,8 @@ class DefectFinder {
       return;
     }
     if (num_beams_ && scan.num_beams() != *num_beams_) {
-      add(fmt::format("event {}: scan of {} beams; expected {} as before", index,
-                      scan.num_beams(), *num_beams_));
+      add(fmt::format("event {}: scan of {} beams; expected {} as before", index, scan.num_beams(),
+                      *num_beams_));
     }
     num_beams_ = scan.num_beams();
     if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad) ||
@@ -130,7 +131,8 @@ std::size_t SensorLog::num_wheel_samples() const { return count_of<WheelSample>(
 std::size_t SensorLog::num_imu_samples() const { return count_of<ImuSample>(events); }
 
 double SensorLog::duration_s() const {
-  return events.size() < 2 ? 0.0 : seconds_between(stamp_of(events.front()), stamp_of(events.back()));
+  return events.size() < 2 ? 0.0
+                           : seconds_between(stamp_of(events.front()), stamp_of(events.back()));
 }
 
 std::vector<std::string> defects(const SensorLog& log, const LogLimits& limits,

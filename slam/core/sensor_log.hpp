@@ -23,13 +23,15 @@ struct Provenance {
   std::string name;    // data set's name, or the file's
   std::string source;  // path of the file, or "simulated"
   std::string format;  // "rawlog", "carmen", "simulation"
-  std::vector<std::string> notes;  // counted, reported repairs: "12 stamps moved by isotonic regression"
+  std::vector<std::string>
+      notes;  // counted, reported repairs: "12 stamps moved by isotonic regression"
 };
 
 struct SensorLog {
   RobotModel robot;
-  std::vector<SensorEvent> events;   // stamps never decrease; equal stamps of different sensors allowed
-  std::optional<Trajectory> truth;   // T_map_base at (at least) each scan
+  std::vector<SensorEvent>
+      events;  // stamps never decrease; equal stamps of different sensors allowed
+  std::optional<Trajectory> truth;  // T_map_base at (at least) each scan
   Provenance provenance;
 
   [[nodiscard]] std::size_t num_scans() const;
@@ -40,8 +42,8 @@ struct SensorLog {
 };
 
 struct LogLimits {
-  double max_gap_s = 10.0;          // between consecutive events of one sensor; longer is an error
-  double max_speed_mps = 10.0;      // of the wheel odometry; faster means wrong units or stamps
+  double max_gap_s = 10.0;      // between consecutive events of one sensor; longer is an error
+  double max_speed_mps = 10.0;  // of the wheel odometry; faster means wrong units or stamps
   double max_yaw_rate_radps = 20.0;
 };
 

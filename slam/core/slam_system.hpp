@@ -1,6 +1,7 @@
 // The one interface between a SLAM system and whoever drives it.
-// A system gets parameters, calibration and a random generator when it is built, then only events in
-// time order. It reads no file and prints nothing; its clock measures stages and decides nothing.
+// A system gets parameters, calibration and a random generator when it is built, then only events
+// in time order. It reads no file and prints nothing; its clock measures stages and decides
+// nothing.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@
 namespace corridor {
 
 enum class StepStatus {
-  kNothingToDo,   // the event was kept or ignored; no new pose is claimed
-  kTracked,       // a pose was given
-  kLost,          // a pose is given, but the system itself no longer believes it
+  kNothingToDo,  // the event was kept or ignored; no new pose is claimed
+  kTracked,      // a pose was given
+  kLost,         // a pose is given, but the system itself no longer believes it
 };
 
 struct StepReport {
@@ -35,8 +36,8 @@ struct StepReport {
 };
 
 struct SlamEstimate {
-  Trajectory trajectory;         // smoothed, one pose per scan; map frame = base frame of the first scan
-  std::optional<GridMap> map;    // none for systems without one
+  Trajectory trajectory;  // smoothed, one pose per scan; map frame = base frame of the first scan
+  std::optional<GridMap> map;  // none for systems without one
   // Named totals that explain the run: "key_scans", "loop_closures", "resamplings", "factors".
   std::map<std::string, double> counters;
 };

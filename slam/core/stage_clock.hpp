@@ -13,12 +13,21 @@ namespace corridor {
 
 // The one vocabulary of stages.
 enum class Stage {
-  kPreprocess, kPredict, kMatch, kMapUpdate, kGraph, kOptimise, kLoopSearch, kResample, kFinish, kOther,
+  kPreprocess,
+  kPredict,
+  kMatch,
+  kMapUpdate,
+  kGraph,
+  kOptimise,
+  kLoopSearch,
+  kResample,
+  kFinish,
+  kOther,
 };
 inline constexpr std::size_t kNumStages = 10;
 inline constexpr std::array<std::string_view, kNumStages> kStageNames = {
-    "preprocess", "predict", "match", "map_update", "graph",
-    "optimise", "loop_search", "resample", "finish", "other"};
+    "preprocess", "predict",     "match",    "map_update", "graph",
+    "optimise",   "loop_search", "resample", "finish",     "other"};
 
 class StageClock {
  public:

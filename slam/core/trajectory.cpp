@@ -18,16 +18,16 @@ std::optional<Pose2> Trajectory::interpolate(Timestamp stamp) const {
                        [](const TrajectoryPose& pose, Timestamp t) { return pose.stamp < t; });
   if (later->stamp == stamp) return later->T_map_base;
   const auto earlier = std::prev(later);
-  const double ratio = seconds_between(earlier->stamp, stamp) /
-                       seconds_between(earlier->stamp, later->stamp);
+  const double ratio =
+      seconds_between(earlier->stamp, stamp) / seconds_between(earlier->stamp, later->stamp);
   return earlier->T_map_base.plus(ratio * later->T_map_base.minus(earlier->T_map_base));
 }
 
 double Trajectory::path_length_m() const {
   double length_m = 0;
   for (std::size_t i = 1; i < poses_.size(); ++i) {
-    length_m += (poses_[i].T_map_base.translation_m() - poses_[i - 1].T_map_base.translation_m())
-                    .norm();
+    length_m +=
+        (poses_[i].T_map_base.translation_m() - poses_[i - 1].T_map_base.translation_m()).norm();
   }
   return length_m;
 }

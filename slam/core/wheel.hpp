@@ -10,7 +10,7 @@
 namespace corridor {
 
 struct WheelTicks {
-  std::int64_t left = 0;   // cumulative since the start of the log
+  std::int64_t left = 0;  // cumulative since the start of the log
   std::int64_t right = 0;
 };
 

@@ -5,8 +5,9 @@ namespace corridor::fusion {
 std::vector<std::string> FusionParams::relations() const {
   std::vector<std::string> broken;
   if (coarse_resolution_m <= fine_resolution_m) {
-    broken.push_back(fmt::format("coarse_resolution_m = {}: expected more than fine_resolution_m = {}",
-                                 coarse_resolution_m, fine_resolution_m));
+    broken.push_back(
+        fmt::format("coarse_resolution_m = {}: expected more than fine_resolution_m = {}",
+                    coarse_resolution_m, fine_resolution_m));
   }
   return broken;
 }

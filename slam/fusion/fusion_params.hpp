@@ -23,7 +23,7 @@ struct FusionParams {
 
   double key_distance_m = 0.2;
   double key_angle_rad = 0.17;
-  double key_interval_s = 2.0;             // only with an IMU, whose errors grow with time
+  double key_interval_s = 2.0;  // only with an IMU, whose errors grow with time
   double max_range_m = 30.0;
 
   double fine_resolution_m = 0.1;
@@ -36,37 +36,37 @@ struct FusionParams {
   double wheel_rotation_per_m_rad = 0.01;
   double wheel_rotation_ratio = 0.03;
   double wheel_scale_sigma = 0.02;
-  double max_wheel_noise_factor = 50;      // of the online adaptation to bad wheels
+  double max_wheel_noise_factor = 50;  // of the online adaptation to bad wheels
 
   double initial_velocity_sigma_mps = 1.0;
   double gyro_bias_sigma_radps = 0.01;
   double accel_bias_sigma_mps2 = 0.1;
-  double velocity_sigma_mps = 0.02;        // of the estimate, for the slip test
+  double velocity_sigma_mps = 0.02;  // of the estimate, for the slip test
 
-  double slip_gate = 20.0;                 // chi-square with 2 degrees of freedom: 5e-5
-  double slip_threshold_m = 0.05;          // the paper's test
-  double degeneracy_floor_factor = 1.5;    // the paper's test, times the noise floor of the measure
-  double degeneracy_travel_m = 0.2;        // the paper's test compares scans this far apart
-  double lidar_sigma_m = 0.01;             // the paper's constant LiDAR noise
+  double slip_gate = 20.0;               // chi-square with 2 degrees of freedom: 5e-5
+  double slip_threshold_m = 0.05;        // the paper's test
+  double degeneracy_floor_factor = 1.5;  // the paper's test, times the noise floor of the measure
+  double degeneracy_travel_m = 0.2;      // the paper's test compares scans this far apart
+  double lidar_sigma_m = 0.01;           // the paper's constant LiDAR noise
   double lidar_sigma_rad = 0.003;
 
-  double match_prior_sigma_m = 0.1;        // least width of the prediction while matching
+  double match_prior_sigma_m = 0.1;  // least width of the prediction while matching
   double match_prior_sigma_rad = 0.05;
-  double jump_inlier_ratio = 0.8;          // a match that contradicts the prediction must explain this much
-  double retry_inlier_ratio = 0.7;         // fewer explained points: search the window
+  double jump_inlier_ratio = 0.8;  // a match that contradicts the prediction must explain this much
+  double retry_inlier_ratio = 0.7;  // fewer explained points: search the window
   double retry_window_m = 0.8;
   double retry_window_rad = 0.3;
 
   double loop_min_path_m = 10.0;
   double loop_interval_m = 0.5;
   double loop_radius_m = 3.0;
-  double loop_drift_ratio = 0.03;          // of the path since the last closure: the search window
+  double loop_drift_ratio = 0.03;  // of the path since the last closure: the search window
   double loop_max_window_m = 4.0;
   double loop_max_window_rad = 0.5;
   double loop_min_inlier_ratio = 0.75;
-  double loop_agreement_m = 0.15;          // two closures in a row must agree
+  double loop_agreement_m = 0.15;  // two closures in a row must agree
   double loop_agreement_rad = 0.05;
-  double loop_gate = 30.0;                 // chi-square of a closure after solving; beyond it is taken out
+  double loop_gate = 30.0;  // chi-square of a closure after solving; beyond it is taken out
 
   matching::MatcherParams matcher;
   matching::ObservabilityParams observability;
@@ -78,58 +78,102 @@ struct FusionParams {
   [[nodiscard]] std::vector<std::string> relations() const;
 };
 
-// The published method, as facts about it are read: scalar degeneracy test, slip threshold, matching
-// between consecutive key scans, no wheel calibration, no loop closing.
+// The published method, as facts about it are read: scalar degeneracy test, slip threshold,
+// matching between consecutive key scans, no wheel calibration, no loop closing.
 FusionParams fusion_paper_params();
 
 template <class V>
 void FusionParams::visit(FusionParams& p, V&& v) {
   using I = ParamInfo;
-  v(I{"use_directional_degeneracy", "", "LiDAR factors only along the directions the scan constrains; false: the paper's scalar test"}, p.use_directional_degeneracy);
-  v(I{"use_statistical_slip_test", "", "slip by a chi-square test; false: the paper's threshold"}, p.use_statistical_slip_test);
-  v(I{"use_submaps", "", "match against a submap; false: against the last key scan"}, p.use_submaps);
+  v(I{"use_directional_degeneracy", "",
+      "LiDAR factors only along the directions the scan constrains; false: the paper's scalar "
+      "test"},
+    p.use_directional_degeneracy);
+  v(I{"use_statistical_slip_test", "", "slip by a chi-square test; false: the paper's threshold"},
+    p.use_statistical_slip_test);
+  v(I{"use_submaps", "", "match against a submap; false: against the last key scan"},
+    p.use_submaps);
   v(I{"use_wheel_scale", "", "estimate the common scale error of the wheels"}, p.use_wheel_scale);
   v(I{"use_loop_closing", "", "search for and add loop closures"}, p.use_loop_closing);
   v(I{"key_distance_m", "m", "travel between key scans", 0.01, 10}, p.key_distance_m);
   v(I{"key_angle_rad", "rad", "turn between key scans", 0.01, 3.2}, p.key_angle_rad);
-  v(I{"key_interval_s", "s", "longest time between key scans of a moving robot with an IMU", 0.05, 100}, p.key_interval_s);
+  v(I{"key_interval_s", "s", "longest time between key scans of a moving robot with an IMU", 0.05,
+      100},
+    p.key_interval_s);
   v(I{"max_range_m", "m", "longer ranges are not used", 0.5, 1000}, p.max_range_m);
   v(I{"fine_resolution_m", "m", "cell of the fine surfel grid", 0.02, 1}, p.fine_resolution_m);
-  v(I{"coarse_resolution_m", "m", "cell of the coarse surfel grid", 0.05, 4}, p.coarse_resolution_m);
+  v(I{"coarse_resolution_m", "m", "cell of the coarse surfel grid", 0.05, 4},
+    p.coarse_resolution_m);
   v(I{"submap_key_scans", "1", "key scans in a submap", 2, 1000}, p.submap_key_scans);
-  v(I{"wheel_translation_floor_m", "m", "smallest standard deviation of a wheel displacement", 1e-5, 1}, p.wheel_translation_floor_m);
-  v(I{"wheel_translation_ratio", "1", "error of a wheel displacement as a share of it", 0, 1}, p.wheel_translation_ratio);
-  v(I{"wheel_rotation_floor_rad", "rad", "smallest standard deviation of a wheel rotation", 1e-5, 1}, p.wheel_rotation_floor_rad);
-  v(I{"wheel_rotation_per_m_rad", "rad/m", "error of a wheel rotation per path", 0, 1}, p.wheel_rotation_per_m_rad);
-  v(I{"wheel_rotation_ratio", "1", "error of a wheel rotation as a share of it", 0, 1}, p.wheel_rotation_ratio);
-  v(I{"wheel_scale_sigma", "1", "standard deviation of the wheels' scale error before it is measured", 1e-6, 1}, p.wheel_scale_sigma);
-  v(I{"max_wheel_noise_factor", "1", "limit of the adaptation of the wheel noise to what the LiDAR shows", 1, 1e4}, p.max_wheel_noise_factor);
-  v(I{"initial_velocity_sigma_mps", "m/s", "prior on the first velocity, around 0", 1e-3, 100}, p.initial_velocity_sigma_mps);
-  v(I{"gyro_bias_sigma_radps", "rad/s", "prior on the gyro bias, around 0", 1e-6, 1}, p.gyro_bias_sigma_radps);
-  v(I{"accel_bias_sigma_mps2", "m/s^2", "prior on the accelerometer bias, around 0", 1e-6, 10}, p.accel_bias_sigma_mps2);
-  v(I{"velocity_sigma_mps", "m/s", "error of the estimated velocity in the slip test", 1e-4, 1}, p.velocity_sigma_mps);
+  v(I{"wheel_translation_floor_m", "m", "smallest standard deviation of a wheel displacement", 1e-5,
+      1},
+    p.wheel_translation_floor_m);
+  v(I{"wheel_translation_ratio", "1", "error of a wheel displacement as a share of it", 0, 1},
+    p.wheel_translation_ratio);
+  v(I{"wheel_rotation_floor_rad", "rad", "smallest standard deviation of a wheel rotation", 1e-5,
+      1},
+    p.wheel_rotation_floor_rad);
+  v(I{"wheel_rotation_per_m_rad", "rad/m", "error of a wheel rotation per path", 0, 1},
+    p.wheel_rotation_per_m_rad);
+  v(I{"wheel_rotation_ratio", "1", "error of a wheel rotation as a share of it", 0, 1},
+    p.wheel_rotation_ratio);
+  v(I{"wheel_scale_sigma", "1",
+      "standard deviation of the wheels' scale error before it is measured", 1e-6, 1},
+    p.wheel_scale_sigma);
+  v(I{"max_wheel_noise_factor", "1",
+      "limit of the adaptation of the wheel noise to what the LiDAR shows", 1, 1e4},
+    p.max_wheel_noise_factor);
+  v(I{"initial_velocity_sigma_mps", "m/s", "prior on the first velocity, around 0", 1e-3, 100},
+    p.initial_velocity_sigma_mps);
+  v(I{"gyro_bias_sigma_radps", "rad/s", "prior on the gyro bias, around 0", 1e-6, 1},
+    p.gyro_bias_sigma_radps);
+  v(I{"accel_bias_sigma_mps2", "m/s^2", "prior on the accelerometer bias, around 0", 1e-6, 10},
+    p.accel_bias_sigma_mps2);
+  v(I{"velocity_sigma_mps", "m/s", "error of the estimated velocity in the slip test", 1e-4, 1},
+    p.velocity_sigma_mps);
   v(I{"slip_gate", "1", "chi-square above which the wheels are left out", 1, 1e4}, p.slip_gate);
-  v(I{"slip_threshold_m", "m", "the paper's slip test: largest difference of IMU and wheels", 1e-3, 10}, p.slip_threshold_m);
-  v(I{"degeneracy_floor_factor", "1", "the paper's LiDAR test: threshold over the measure's noise floor", 0, 100}, p.degeneracy_floor_factor);
-  v(I{"degeneracy_travel_m", "m", "the paper's LiDAR test: travel between the compared scans", 0.01, 10}, p.degeneracy_travel_m);
-  v(I{"lidar_sigma_m", "m", "the paper's LiDAR constraint: standard deviation", 1e-4, 1}, p.lidar_sigma_m);
-  v(I{"lidar_sigma_rad", "rad", "the paper's LiDAR constraint: standard deviation", 1e-5, 1}, p.lidar_sigma_rad);
-  v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching", 1e-3, 10}, p.match_prior_sigma_m);
-  v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching", 1e-3, 3}, p.match_prior_sigma_rad);
-  v(I{"jump_inlier_ratio", "1", "smallest share of explained points of a match that contradicts the prediction", 0, 1}, p.jump_inlier_ratio);
-  v(I{"retry_inlier_ratio", "1", "with fewer explained points the window is searched", 0, 1}, p.retry_inlier_ratio);
+  v(I{"slip_threshold_m", "m", "the paper's slip test: largest difference of IMU and wheels", 1e-3,
+      10},
+    p.slip_threshold_m);
+  v(I{"degeneracy_floor_factor", "1",
+      "the paper's LiDAR test: threshold over the measure's noise floor", 0, 100},
+    p.degeneracy_floor_factor);
+  v(I{"degeneracy_travel_m", "m", "the paper's LiDAR test: travel between the compared scans", 0.01,
+      10},
+    p.degeneracy_travel_m);
+  v(I{"lidar_sigma_m", "m", "the paper's LiDAR constraint: standard deviation", 1e-4, 1},
+    p.lidar_sigma_m);
+  v(I{"lidar_sigma_rad", "rad", "the paper's LiDAR constraint: standard deviation", 1e-5, 1},
+    p.lidar_sigma_rad);
+  v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching", 1e-3, 10},
+    p.match_prior_sigma_m);
+  v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching", 1e-3, 3},
+    p.match_prior_sigma_rad);
+  v(I{"jump_inlier_ratio", "1",
+      "smallest share of explained points of a match that contradicts the prediction", 0, 1},
+    p.jump_inlier_ratio);
+  v(I{"retry_inlier_ratio", "1", "with fewer explained points the window is searched", 0, 1},
+    p.retry_inlier_ratio);
   v(I{"retry_window_m", "m", "half width of that window", 0, 10}, p.retry_window_m);
   v(I{"retry_window_rad", "rad", "half width of that window", 0, 3.2}, p.retry_window_rad);
-  v(I{"loop_min_path_m", "m", "path before a place can count as seen again", 1, 1e4}, p.loop_min_path_m);
+  v(I{"loop_min_path_m", "m", "path before a place can count as seen again", 1, 1e4},
+    p.loop_min_path_m);
   v(I{"loop_interval_m", "m", "travel between two searches", 0.01, 100}, p.loop_interval_m);
-  v(I{"loop_radius_m", "m", "distance to a key scan of a submap that makes it a candidate", 0.1, 100}, p.loop_radius_m);
-  v(I{"loop_drift_ratio", "1", "search window per path since the last closure", 0, 1}, p.loop_drift_ratio);
+  v(I{"loop_radius_m", "m", "distance to a key scan of a submap that makes it a candidate", 0.1,
+      100},
+    p.loop_radius_m);
+  v(I{"loop_drift_ratio", "1", "search window per path since the last closure", 0, 1},
+    p.loop_drift_ratio);
   v(I{"loop_max_window_m", "m", "largest half width of the search", 0.1, 50}, p.loop_max_window_m);
-  v(I{"loop_max_window_rad", "rad", "largest half width of the search", 0.01, 3.2}, p.loop_max_window_rad);
-  v(I{"loop_min_inlier_ratio", "1", "smallest share of explained points of a closure", 0, 1}, p.loop_min_inlier_ratio);
+  v(I{"loop_max_window_rad", "rad", "largest half width of the search", 0.01, 3.2},
+    p.loop_max_window_rad);
+  v(I{"loop_min_inlier_ratio", "1", "smallest share of explained points of a closure", 0, 1},
+    p.loop_min_inlier_ratio);
   v(I{"loop_agreement_m", "m", "two closures in a row must agree", 0, 10}, p.loop_agreement_m);
-  v(I{"loop_agreement_rad", "rad", "two closures in a row must agree", 0, 3.2}, p.loop_agreement_rad);
-  v(I{"loop_gate", "1", "chi-square beyond which a closure is taken out after solving", 1, 1e6}, p.loop_gate);
+  v(I{"loop_agreement_rad", "rad", "two closures in a row must agree", 0, 3.2},
+    p.loop_agreement_rad);
+  v(I{"loop_gate", "1", "chi-square beyond which a closure is taken out after solving", 1, 1e6},
+    p.loop_gate);
   matching::MatcherParams::visit(p.matcher, v);
   matching::ObservabilityParams::visit(p.observability, v);
   matching::CorrelativeParams::visit(p.correlative, v);

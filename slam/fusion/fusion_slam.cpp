@@ -140,8 +140,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     const auto stage = stage_clock().enter(Stage::kMatch);
     Submap& submap = local_map_.active();
     const Pose2& T_map_submap = estimate().pose(submap.origin_key());
-    const TrackedScan tracked = track_scan(submap, points, T_map_submap.between(T_map_base_),
-                                           prediction, robot_, params_);
+    const TrackedScan tracked =
+        track_scan(submap, points, T_map_submap.between(T_map_base_), prediction, robot_, params_);
     const Pose2 before = T_map_base_;
     T_map_base_ = T_map_submap * tracked.T_submap_base;
     path_m_ += (T_map_base_.translation_m() - before.translation_m()).norm();
@@ -174,14 +174,13 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     interval.turn_i_j_rad = estimate().pose(interval.i).between(T_map_base_).theta_rad();
     if (has_imu_) {
       interval.imu = predictor_.imu_interval();
-      interval.velocity_base_i_mps = estimate().pose(interval.i).rotation().transpose() *
-                                     estimate().velocity(interval.i);
+      interval.velocity_base_i_mps =
+          estimate().pose(interval.i).rotation().transpose() * estimate().velocity(interval.i);
     }
     interval.match = tracked.match;
     interval.anchor = const_cast<LocalMap&>(local_map_).active().origin_key();
     interval.is_wheel_jump = is_wheel_jump_;
-    interval.range_difference_m =
-        mean_range_difference_m(before.scan, scan, interval.turn_i_j_rad);
+    interval.range_difference_m = mean_range_difference_m(before.scan, scan, interval.turn_i_j_rad);
     interval.wheel_scale = estimate().wheel_scale(0);
     interval.anchor_age_s = seconds_between(anchor_stamp_, scan.stamp);
     return interval;
@@ -213,9 +212,9 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     values.set_pose(interval.j, T_map_base_);
     if (has_imu_) {
       const Eigen::Vector2d gained =
-          interval.imu ? Eigen::Vector2d(estimate().pose(interval.i).rotation() *
-                                         interval.imu->velocity_mps)
-                       : Eigen::Vector2d::Zero();
+          interval.imu
+              ? Eigen::Vector2d(estimate().pose(interval.i).rotation() * interval.imu->velocity_mps)
+              : Eigen::Vector2d::Zero();
       values.set_velocity(interval.j, estimate().velocity(interval.i) + gained);
       values.set_bias(interval.j, estimate().bias(interval.i));
     }
@@ -321,14 +320,14 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   LoopCloser loop_closer_;
   WheelNoiseAdapter wheel_noise_;
 
-  bool has_imu_ = false;               // decided at the first scan
+  bool has_imu_ = false;  // decided at the first scan
   std::vector<KeyScan> key_scans_;
-  std::vector<Pose2> arrivals_;        // per key scan: T_key_next as tracked, before solving
+  std::vector<Pose2> arrivals_;  // per key scan: T_key_next as tracked, before solving
   std::vector<ScanRecord> records_;
   Pose2 T_map_base_;
   double path_m_ = 0;
   Timestamp last_scan_stamp_;
-  Timestamp anchor_stamp_;             // when wheels or LiDAR last fixed the motion
+  Timestamp anchor_stamp_;  // when wheels or LiDAR last fixed the motion
   bool is_wheel_jump_ = false;
   IntervalVerdict verdict_;
   std::vector<graph::FactorId> loop_ids_;

@@ -11,8 +11,8 @@
 
 namespace corridor::fusion {
 
-// Works with any subset of sensors that holds a LiDAR: without IMU the heading between scans comes from
-// the wheels, without wheels the prediction keeps still. name(): "fusion" or "fusion-paper".
+// Works with any subset of sensors that holds a LiDAR: without IMU the heading between scans comes
+// from the wheels, without wheels the prediction keeps still. name(): "fusion" or "fusion-paper".
 // The object implements graph::GraphSource too.
 std::unique_ptr<SlamSystem> make_fusion(const FusionParams& params, const RobotModel& robot,
                                         std::unique_ptr<backend::BackEnd> back_end);

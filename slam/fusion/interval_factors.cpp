@@ -11,7 +11,8 @@ namespace {
 
 using graph::FactorPtr;
 
-// How much worse than nominal a sensor is taken that was excluded and came back as the least bad one.
+// How much worse than nominal a sensor is taken that was excluded and came back as the least bad
+// one.
 constexpr double kLeastBadFactor = 10;
 // The pose of key scan 0 defines the map frame.
 constexpr double kGaugeSigma = 1e-4;
@@ -19,8 +20,8 @@ constexpr double kGaugeSigma = 1e-4;
 constexpr double kMinBiasWalk = 1e-7;
 
 struct LidarChoice {
-  double sigma_factor = 1;             // on the constant noise of the paper's constraint
-  double badness = 0;                  // >= 1: degraded
+  double sigma_factor = 1;  // on the constant noise of the paper's constraint
+  double badness = 0;       // >= 1: degraded
 };
 
 // The paper's scalar test: too small a change of the view while the wheels moved.
@@ -30,8 +31,8 @@ LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
   const bool has_moved = interval.wheel_T_i_j &&
                          interval.wheel_T_i_j->translation_m().norm() > 0.5 * params.key_distance_m;
   if (!interval.range_difference_m || !has_moved) return choice;
-  const double threshold_m = params.degeneracy_floor_factor *
-                             range_difference_floor_m(robot.lidar.range_sigma_m);
+  const double threshold_m =
+      params.degeneracy_floor_factor * range_difference_floor_m(robot.lidar.range_sigma_m);
   choice.badness = threshold_m / std::max(*interval.range_difference_m, 1e-6);
   choice.sigma_factor = adaptive_factor(choice.badness);
   return choice;
@@ -55,15 +56,14 @@ FactorPtr wheel_factor(const Interval& interval, const WheelNoise& noise, double
                          1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.rotation_sigma_rad * sigma_factor));
   if (interval.imu) weight(2) = 0;  // the gyro knows the turn better than unequal wheels
-  return std::make_unique<graph::WheelMotion>(graph::pose_key(interval.i),
-                                              graph::pose_key(interval.j), graph::wheel_scale_key(0),
-                                              *interval.wheel_T_i_j, weight.asDiagonal());
+  return std::make_unique<graph::WheelMotion>(
+      graph::pose_key(interval.i), graph::pose_key(interval.j), graph::wheel_scale_key(0),
+      *interval.wheel_T_i_j, weight.asDiagonal());
 }
 
 void add_imu_factors(const Interval& interval, const ImuModel& imu,
                      std::vector<FactorPtr>& factors) {
-  factors.push_back(
-      std::make_unique<graph::ImuMotion>(interval.i, interval.j, *interval.imu));
+  factors.push_back(std::make_unique<graph::ImuMotion>(interval.i, interval.j, *interval.imu));
   factors.push_back(std::make_unique<graph::BiasWalk>(
       interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
 }
@@ -92,8 +92,8 @@ IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& n
   double lidar_factor_on_sigma = lidar.sigma_factor;
   if (!verdict.are_wheels_used && !verdict.is_lidar_used) {
     verdict.is_least_bad_kept = true;
-    verdict.are_wheels_used = interval.wheel_T_i_j && (!interval.match || slip.measure_over_threshold <
-                                                                              lidar.badness);
+    verdict.are_wheels_used =
+        interval.wheel_T_i_j && (!interval.match || slip.measure_over_threshold < lidar.badness);
     verdict.is_lidar_used = interval.match && !verdict.are_wheels_used;
     wheel_factor_on_sigma *= kLeastBadFactor;
     lidar_factor_on_sigma *= kLeastBadFactor;
@@ -154,14 +154,13 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
              : add_scalar_factors(interval, noise, slip, robot, params, factors);
 }
 
-void add_first_factors(bool has_imu, const FusionParams& params,
-                       std::vector<FactorPtr>& factors) {
-  factors.push_back(std::make_unique<graph::PosePrior>(
-      graph::pose_key(0), Pose2(), Eigen::Matrix3d::Identity() / kGaugeSigma));
+void add_first_factors(bool has_imu, const FusionParams& params, std::vector<FactorPtr>& factors) {
+  factors.push_back(std::make_unique<graph::PosePrior>(graph::pose_key(0), Pose2(),
+                                                       Eigen::Matrix3d::Identity() / kGaugeSigma));
   const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : 1e-6;
-  factors.push_back(std::make_unique<graph::VectorPrior>(graph::wheel_scale_key(0),
-                                                         Eigen::VectorXd::Zero(1),
-                                                         Eigen::VectorXd::Constant(1, scale_sigma)));
+  factors.push_back(
+      std::make_unique<graph::VectorPrior>(graph::wheel_scale_key(0), Eigen::VectorXd::Zero(1),
+                                           Eigen::VectorXd::Constant(1, scale_sigma)));
   if (!has_imu) return;
   factors.push_back(std::make_unique<graph::VectorPrior>(
       graph::velocity_key(0), Eigen::VectorXd::Zero(2),

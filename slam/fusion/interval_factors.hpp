@@ -1,4 +1,5 @@
-// Chooses and weights the factors of one interval between key scans: the paper's reconfigurable graph.
+// Chooses and weights the factors of one interval between key scans: the paper's reconfigurable
+// graph.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +18,12 @@ namespace corridor::fusion {
 // What the sensors said between key scan i and key scan j = i + 1.
 struct Interval {
   std::uint32_t i = 0, j = 0;
-  std::optional<Pose2> wheel_T_i_j;              // raw odometry
+  std::optional<Pose2> wheel_T_i_j;  // raw odometry
   std::optional<motion::ImuDelta> imu;
   std::optional<matching::ObservableMatch> match;  // of scan j in the frame of key scan `anchor`
   std::uint32_t anchor = 0;
-  bool is_wheel_jump = false;                    // the LiDAR, seeing every direction, contradicts the wheels
-  std::optional<double> range_difference_m;      // of scans i and j, the paper's measure
+  bool is_wheel_jump = false;  // the LiDAR, seeing every direction, contradicts the wheels
+  std::optional<double> range_difference_m;  // of scans i and j, the paper's measure
   double turn_i_j_rad = 0;
   Eigen::Vector2d velocity_base_i_mps = Eigen::Vector2d::Zero();
   double wheel_scale = 0;
@@ -34,7 +35,7 @@ struct IntervalVerdict {
   bool is_degenerate = false;
   bool are_wheels_used = false;
   bool is_lidar_used = false;
-  bool is_least_bad_kept = false;   // everything but the IMU was excluded, one was taken back
+  bool is_least_bad_kept = false;  // everything but the IMU was excluded, one was taken back
 };
 
 // Appends the interval's factors.

@@ -11,9 +11,9 @@ namespace corridor::fusion {
 
 struct KeyScan {
   LaserScan scan;
-  std::vector<Eigen::Vector2d> points_base_m;      // deskewed, valid, within the used range
-  std::optional<Pose2> wheel_T_odom_base;          // raw odometry at the scan's stamp
-  double path_m = 0;                               // travelled by the estimate up to here
+  std::vector<Eigen::Vector2d> points_base_m;  // deskewed, valid, within the used range
+  std::optional<Pose2> wheel_T_odom_base;      // raw odometry at the scan's stamp
+  double path_m = 0;                           // travelled by the estimate up to here
 };
 
 }  // namespace corridor::fusion

@@ -1,5 +1,5 @@
-// The submaps of a run: two overlapping ones grow, the older of them is matched against, the finished
-// ones wait for loop closures.
+// The submaps of a run: two overlapping ones grow, the older of them is matched against, the
+// finished ones wait for loop closures.
 #pragma once
 
 #include <cstdint>

@@ -23,10 +23,9 @@ Submap* LoopCloser::nearest_candidate(std::span<const KeyScan> key_scans, LocalM
   const KeyScan& now = key_scans.back();
   const Eigen::Vector2d here =
       estimate.pose(static_cast<std::uint32_t>(key_scans.size() - 1)).translation_m();
-  const double radius_m =
-      params_.loop_radius_m +
-      std::min(params_.loop_max_window_m,
-               params_.loop_drift_ratio * (now.path_m - last_closure_path_m_));
+  const double radius_m = params_.loop_radius_m +
+                          std::min(params_.loop_max_window_m,
+                                   params_.loop_drift_ratio * (now.path_m - last_closure_path_m_));
   Submap* nearest = nullptr;
   double nearest_m = radius_m;
   for (const auto& submap : local_map.finished()) {
@@ -46,16 +45,15 @@ Submap* LoopCloser::nearest_candidate(std::span<const KeyScan> key_scans, LocalM
 std::optional<LoopClosure> LoopCloser::match(const KeyScan& key_scan, std::uint32_t key,
                                              Submap& submap, const graph::Values& estimate,
                                              double range_sigma_m) const {
-  const Pose2 T_submap_base =
-      estimate.pose(submap.origin_key()).between(estimate.pose(key));
+  const Pose2 T_submap_base = estimate.pose(submap.origin_key()).between(estimate.pose(key));
   const double path_m = key_scan.path_m - last_closure_path_m_;
-  const double window_m = std::clamp(params_.loop_drift_ratio * path_m, kMinWindow_m,
-                                     params_.loop_max_window_m);
+  const double window_m =
+      std::clamp(params_.loop_drift_ratio * path_m, kMinWindow_m, params_.loop_max_window_m);
   const double window_rad =
       std::clamp(kHeadingDrift_radpm * path_m, kMinWindow_rad, params_.loop_max_window_rad);
-  const matching::MatchResult result = submap.search(
-      key_scan.points_base_m, T_submap_base, window_m, window_rad, Eigen::Matrix3d::Zero(),
-      range_sigma_m);
+  const matching::MatchResult result =
+      submap.search(key_scan.points_base_m, T_submap_base, window_m, window_rad,
+                    Eigen::Matrix3d::Zero(), range_sigma_m);
   if (!result.is_usable() || result.inlier_ratio < params_.loop_min_inlier_ratio) {
     return std::nullopt;
   }

@@ -1,5 +1,6 @@
 // Finds places seen before: the present key scan against finished submaps nearby, in a window that
-// grows with the path since the last closure. Two closures in a row must agree before either counts.
+// grows with the path since the last closure. Two closures in a row must agree before either
+// counts.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace corridor::fusion {
 
 struct LoopClosure {
-  std::uint32_t submap_key = 0;   // origin of the submap
+  std::uint32_t submap_key = 0;  // origin of the submap
   std::uint32_t scan_key = 0;
   matching::ObservableMatch match;  // T_submap_base of the key scan
 };

@@ -1,5 +1,6 @@
-// Caches wheels and IMU and tells how the robot moved between two scans: translation from the wheels
-// (with the estimated scale), rotation from the bias-corrected gyro, or from the wheels without one.
+// Caches wheels and IMU and tells how the robot moved between two scans: translation from the
+// wheels (with the estimated scale), rotation from the bias-corrected gyro, or from the wheels
+// without one.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +16,9 @@
 namespace corridor::fusion {
 
 struct Prediction {
-  Pose2 T_last_now;               // motion of the base since the last scan
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // 3x3, order (x_m, y_m, theta_rad), base now
+  Pose2 T_last_now;  // motion of the base since the last scan
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  // 3x3, order (x_m, y_m, theta_rad), base now
   bool has_wheels = false;
 };
 

@@ -9,8 +9,7 @@ namespace {
 matching::MatchResult match_or_search(Submap& submap, std::span<const Eigen::Vector2d> points_base,
                                       const Pose2& T_predicted, const Eigen::Matrix3d& information,
                                       double range_sigma_m, const FusionParams& params) {
-  matching::MatchResult direct =
-      submap.match(points_base, T_predicted, information, range_sigma_m);
+  matching::MatchResult direct = submap.match(points_base, T_predicted, information, range_sigma_m);
   if (direct.is_usable() && direct.inlier_ratio >= params.retry_inlier_ratio) return direct;
   if (params.retry_window_m <= 0) return direct;
   matching::MatchResult searched =
@@ -34,9 +33,9 @@ struct Fused {
   double chi2 = 0;
 };
 
-// Kalman update in information form; directions with zero information stay as predicted. chi2 is the
-// innovation's, (L^+ + Q)^-1 by the matrix inversion lemma, L the match's information, Q the prediction's
-// covariance.
+// Kalman update in information form; directions with zero information stay as predicted. chi2 is
+// the innovation's, (L^+ + Q)^-1 by the matrix inversion lemma, L the match's information, Q the
+// prediction's covariance.
 Fused fuse(const Pose2& T_predicted, const matching::ObservableMatch& match,
            const Eigen::Matrix3d& covariance) {
   const Pose2::Tangent innovation = match.T_map_base.minus(T_predicted);
@@ -72,7 +71,8 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
   }
   const bool is_jump = fused.chi2 > params.slip_gate;
   if (is_jump && match.inlier_ratio < params.jump_inlier_ratio) {
-    // Either the scan is spoilt (somebody stands before it) or the wheels jumped: the next scan tells.
+    // Either the scan is spoilt (somebody stands before it) or the wheels jumped: the next scan
+    // tells.
     return TrackedScan{T_predicted, std::nullopt, std::nullopt, 0};
   }
   // Wheels that jumped do not hold the scan back.

@@ -1,5 +1,5 @@
-// Follows the robot from scan to scan: predicts, matches against the active submap, and tells what the
-// LiDAR alone measured and how far that is from the wheels.
+// Follows the robot from scan to scan: predicts, matches against the active submap, and tells what
+// the LiDAR alone measured and how far that is from the wheels.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,16 +15,17 @@
 namespace corridor::fusion {
 
 struct TrackedScan {
-  Pose2 T_submap_base;                               // scan and prediction together
-  std::optional<matching::ObservableMatch> match;    // the scan's own say; none if it did not fit
-  // Chi-square of the LiDAR against the prediction along the directions the scan sees, and their number;
-  // only where the prediction came from wheels.
+  Pose2 T_submap_base;                             // scan and prediction together
+  std::optional<matching::ObservableMatch> match;  // the scan's own say; none if it did not fit
+  // Chi-square of the LiDAR against the prediction along the directions the scan sees, and their
+  // number; only where the prediction came from wheels.
   std::optional<double> chi2;
   int degrees_of_freedom = 0;
 };
 
 // T_submap_last: pose at the last scan. The match starts from the prediction but is held by it only
-// loosely, so that wheels which jump do not hold the scan back; what the scan does not see stays predicted.
+// loosely, so that wheels which jump do not hold the scan back; what the scan does not see stays
+// predicted.
 TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_base_m,
                        const Pose2& T_submap_last, const Prediction& prediction,
                        const RobotModel& robot, const FusionParams& params);

@@ -39,9 +39,7 @@ WheelNoise nominal_wheel_noise(const Pose2& wheel_T_i_j, const WheelModel& model
   return noise;
 }
 
-double adaptive_factor(double measure_over_threshold) {
-  return 1 + square(measure_over_threshold);
-}
+double adaptive_factor(double measure_over_threshold) { return 1 + square(measure_over_threshold); }
 
 std::optional<double> mean_range_difference_m(const LaserScan& earlier, const LaserScan& later,
                                               double turn_rad) {
@@ -50,8 +48,7 @@ std::optional<double> mean_range_difference_m(const LaserScan& earlier, const La
   }
   const auto n = static_cast<int>(later.num_beams());
   const int shift = static_cast<int>(std::lround(turn_rad / later.angle_increment_rad));
-  const bool is_full_circle =
-      std::abs(n * later.angle_increment_rad) > 2 * std::numbers::pi - 1e-3;
+  const bool is_full_circle = std::abs(n * later.angle_increment_rad) > 2 * std::numbers::pi - 1e-3;
   double sum = 0;
   int count = 0;
   for (int i = 0; i < n; ++i) {
@@ -62,8 +59,8 @@ std::optional<double> mean_range_difference_m(const LaserScan& earlier, const La
     const auto a = static_cast<std::size_t>(j);
     const auto b = static_cast<std::size_t>(i);
     if (!earlier.is_valid[a] || !later.is_valid[b]) continue;
-    sum += std::abs(static_cast<double>(earlier.ranges_m[a]) -
-                    static_cast<double>(later.ranges_m[b]));
+    sum +=
+        std::abs(static_cast<double>(earlier.ranges_m[a]) - static_cast<double>(later.ranges_m[b]));
     ++count;
   }
   if (count < kMinCommonBeams) return std::nullopt;
@@ -95,7 +92,8 @@ SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
   const double variance = square(noise.translation_sigma_m) + velocity_variance * dt * dt;
   const Eigen::Matrix2d covariance =
       imu.covariance.bottomRightCorner<2, 2>() + variance * Eigen::Matrix2d::Identity();
-  test.measure_over_threshold = difference.dot(covariance.llt().solve(difference)) / params.slip_gate;
+  test.measure_over_threshold =
+      difference.dot(covariance.llt().solve(difference)) / params.slip_gate;
   test.is_slip = test.measure_over_threshold > 1;
   return test;
 }

@@ -1,5 +1,6 @@
-// Watches the sensors: slip of the wheels, degeneracy of the LiDAR, and how good the wheels are on the
-// whole. The paper's tests (section 2, "sensor uncertainty detection") and their statistical versions.
+// Watches the sensors: slip of the wheels, degeneracy of the LiDAR, and how good the wheels are on
+// the whole. The paper's tests (section 2, "sensor uncertainty detection") and their statistical
+// versions.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +21,8 @@ struct WheelNoise {
   [[nodiscard]] Eigen::Matrix3d covariance() const;
 };
 
-// What one wheel displacement is worth before any adaptation: random error of the robot model, errors
-// proportional to path and turn, and floors.
+// What one wheel displacement is worth before any adaptation: random error of the robot model,
+// errors proportional to path and turn, and floors.
 WheelNoise nominal_wheel_noise(const Pose2& wheel_T_i_j, const WheelModel& model,
                                const FusionParams& params);
 
@@ -42,8 +43,8 @@ struct SlipTest {
   bool is_slip = false;
 };
 
-// Wheels against the IMU over one key interval. velocity_base: estimated velocity at its begin in the
-// base frame; anchor_age_s: time since wheels or LiDAR last fixed it along the motion.
+// Wheels against the IMU over one key interval. velocity_base: estimated velocity at its begin in
+// the base frame; anchor_age_s: time since wheels or LiDAR last fixed it along the motion.
 SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
                    const motion::ImuDelta& imu, const Eigen::Vector2d& velocity_base_mps,
                    double anchor_age_s, const ImuModel& imu_model, const FusionParams& params);
@@ -53,7 +54,8 @@ class WheelNoiseAdapter {
  public:
   explicit WheelNoiseAdapter(double max_factor) : max_factor_(max_factor) {}
 
-  // normalized_square: innovation^T S^-1 innovation over its degrees of freedom, S with the present factor.
+  // normalized_square: innovation^T S^-1 innovation over its degrees of freedom, S with the present
+  // factor.
   void observe(double normalized_square);
   [[nodiscard]] double factor() const;
 

@@ -40,9 +40,8 @@ MatchResult Submap::search(std::span<const Eigen::Vector2d> points_base_m,
                            const Pose2& T_submap_base_centre, double window_m, double window_rad,
                            const Eigen::Matrix3d& prior_information, double range_sigma_m) {
   if (!image_) image_.emplace(fine_.cell_means_m(), params_.correlative);
-  const matching::CorrelativeResult found =
-      matching::search(*image_, points_base_m, T_submap_base_centre, window_m, window_rad,
-                       params_.correlative);
+  const matching::CorrelativeResult found = matching::search(
+      *image_, points_base_m, T_submap_base_centre, window_m, window_rad, params_.correlative);
   return match(points_base_m, found.T_map_base, prior_information, range_sigma_m);
 }
 

@@ -11,9 +11,9 @@
 
 namespace corridor::graph {
 
-// Residuals are whitened: r = L^T e with Omega = L L^T the information matrix, so that chi2 = ||r||^2
-// (g2o's convention, no factor 1/2). Jacobians are with respect to the right tangent of each variable
-// (Values::retract), stacked side by side in the order of keys().
+// Residuals are whitened: r = L^T e with Omega = L L^T the information matrix, so that chi2 =
+// ||r||^2 (g2o's convention, no factor 1/2). Jacobians are with respect to the right tangent of
+// each variable (Values::retract), stacked side by side in the order of keys().
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -22,7 +22,8 @@ class Factor {
   [[nodiscard]] virtual std::span<const Key> keys() const = 0;
   // Rows of the residual.
   [[nodiscard]] virtual int dimension() const = 0;
-  // residual: dimension(); jacobian: dimension() x sum of the keys' dimensions. Both are overwritten.
+  // residual: dimension(); jacobian: dimension() x sum of the keys' dimensions. Both are
+  // overwritten.
   virtual void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
                          Eigen::Ref<Eigen::MatrixXd> jacobian) const = 0;
   // The whitened residual alone.

@@ -1,4 +1,5 @@
-// What a finished graph-based system solved, so that any back-end can solve exactly the same problem.
+// What a finished graph-based system solved, so that any back-end can solve exactly the same
+// problem.
 #pragma once
 
 #include "slam/graph/factor_graph.hpp"

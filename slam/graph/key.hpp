@@ -9,9 +9,9 @@ namespace corridor::graph {
 
 // What a variable is; it fixes the variable's dimension.
 enum class VariableKind : std::uint32_t {
-  kPose,      // SE(2), T_map_base; tangent order (x_m, y_m, theta_rad) in base
-  kVelocity,  // R^2 [m/s], of the base in the map frame
-  kBias,      // R^3, order (gyro z [rad/s], accelerometer x, y [m/s^2])
+  kPose,        // SE(2), T_map_base; tangent order (x_m, y_m, theta_rad) in base
+  kVelocity,    // R^2 [m/s], of the base in the map frame
+  kBias,        // R^3, order (gyro z [rad/s], accelerometer x, y [m/s^2])
   kWheelScale,  // R^1, true path = (1 + value) * path by nominal wheel radii
 };
 

@@ -60,10 +60,14 @@ bool Values::contains(Key key) const {
     return key.index < slots.size() && slots[key.index].has_value();
   };
   switch (key.kind) {
-    case VariableKind::kPose: return has(poses_);
-    case VariableKind::kVelocity: return has(velocities_);
-    case VariableKind::kBias: return has(biases_);
-    case VariableKind::kWheelScale: return has(wheel_scales_);
+    case VariableKind::kPose:
+      return has(poses_);
+    case VariableKind::kVelocity:
+      return has(velocities_);
+    case VariableKind::kBias:
+      return has(biases_);
+    case VariableKind::kWheelScale:
+      return has(wheel_scales_);
   }
   return false;
 }
@@ -81,9 +85,15 @@ void Values::retract(Key key, const Eigen::Ref<const Eigen::VectorXd>& delta) {
     case VariableKind::kPose:
       poses_[key.index] = poses_[key.index]->plus(Eigen::Vector3d(delta));
       return;
-    case VariableKind::kVelocity: *velocities_[key.index] += delta; return;
-    case VariableKind::kBias: *biases_[key.index] += delta; return;
-    case VariableKind::kWheelScale: *wheel_scales_[key.index] += delta(0); return;
+    case VariableKind::kVelocity:
+      *velocities_[key.index] += delta;
+      return;
+    case VariableKind::kBias:
+      *biases_[key.index] += delta;
+      return;
+    case VariableKind::kWheelScale:
+      *wheel_scales_[key.index] += delta(0);
+      return;
   }
 }
 

@@ -27,7 +27,8 @@ class Values {
   [[nodiscard]] const Eigen::Vector3d& bias(std::uint32_t index) const;
   [[nodiscard]] double wheel_scale(std::uint32_t index) const;
 
-  // value := value (+) delta: Pose2::plus for poses, a sum for the others. `delta` has key.dimension() rows.
+  // value := value (+) delta: Pose2::plus for poses, a sum for the others. `delta` has
+  // key.dimension() rows.
   void retract(Key key, const Eigen::Ref<const Eigen::VectorXd>& delta);
   // Takes over every variable of `other`.
   void merge(const Values& other);

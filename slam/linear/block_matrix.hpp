@@ -21,7 +21,8 @@ class BlockMatrix {
   std::size_t slot(int row_variable, int column_variable);
 
   void set_zero();
-  // dimension(row variable) x dimension(column variable); valid until the next slot() or add_variable().
+  // dimension(row variable) x dimension(column variable); valid until the next slot() or
+  // add_variable().
   [[nodiscard]] Block block(std::size_t slot);
 
   [[nodiscard]] int num_variables() const { return static_cast<int>(columns_.size()); }

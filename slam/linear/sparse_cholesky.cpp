@@ -138,7 +138,8 @@ CholeskyStatus SparseCholesky::factorize(const Eigen::SparseMatrix<double>& lowe
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
-  CORRIDOR_EXPECT(impl_->factor != nullptr && static_cast<std::size_t>(b.rows()) == impl_->factor->n);
+  CORRIDOR_EXPECT(impl_->factor != nullptr &&
+                  static_cast<std::size_t>(b.rows()) == impl_->factor->n);
   Eigen::MatrixXd right_hand_side = b;
   cholmod_dense view{};
   view.nrow = static_cast<std::size_t>(b.rows());

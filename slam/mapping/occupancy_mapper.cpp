@@ -78,8 +78,7 @@ GridMap build_occupancy_map(std::span<const PosedScan> scans, const OccupancyMap
   if (!(extent.min.x() <= extent.max.x())) return {};
   const double r = params.resolution_m;
   // The grid's lines lie on multiples of the resolution, so that maps of one frame can be compared.
-  const Eigen::Vector2d origin =
-      ((extent.min / r).array().floor() - 1).matrix() * r;
+  const Eigen::Vector2d origin = ((extent.min / r).array().floor() - 1).matrix() * r;
   const Eigen::Vector2d size = ((extent.max - origin) / r).array().ceil() + 1;
   GridMap map(r, origin, static_cast<int>(size.x()), static_cast<int>(size.y()));
   const auto limit = static_cast<float>(params.max_abs_log_odds);

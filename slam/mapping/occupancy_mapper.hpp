@@ -16,15 +16,19 @@ struct OccupancyMapperParams {
   double hit_log_odds = 0.85;
   double miss_log_odds = -0.4;
   double max_abs_log_odds = 8.0;
-  bool use_no_returns = false;   // clear free space along beams without return, up to range_max_m
+  bool use_no_returns = false;  // clear free space along beams without return, up to range_max_m
 
   template <class V>
   static void visit(OccupancyMapperParams& p, V&& v) {
     v(ParamInfo{"map_resolution_m", "m", "side of a cell", 0.005, 1}, p.resolution_m);
-    v(ParamInfo{"map_hit_log_odds", "1", "added to the cell of a beam's end point", 0, 10}, p.hit_log_odds);
-    v(ParamInfo{"map_miss_log_odds", "1", "added to each cell a beam passes", -10, 0}, p.miss_log_odds);
+    v(ParamInfo{"map_hit_log_odds", "1", "added to the cell of a beam's end point", 0, 10},
+      p.hit_log_odds);
+    v(ParamInfo{"map_miss_log_odds", "1", "added to each cell a beam passes", -10, 0},
+      p.miss_log_odds);
     v(ParamInfo{"map_max_abs_log_odds", "1", "clamp", 0.1, 100}, p.max_abs_log_odds);
-    v(ParamInfo{"map_use_no_returns", "", "clear along beams without return up to the sensor's limit"}, p.use_no_returns);
+    v(ParamInfo{"map_use_no_returns", "",
+                "clear along beams without return up to the sensor's limit"},
+      p.use_no_returns);
   }
 };
 

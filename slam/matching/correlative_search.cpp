@@ -54,8 +54,9 @@ SurfaceImage::SurfaceImage(std::span<const Eigen::Vector2d> surface_points_m,
         const double ey = (row + dy + 0.5 - q.y()) * resolution_m_;
         const auto value =
             static_cast<std::uint8_t>(255 * std::exp(-(ex * ex + ey * ey) * inverse));
-        auto& cell = cells_[static_cast<std::size_t>(row + dy) * static_cast<std::size_t>(num_columns_) +
-                            static_cast<std::size_t>(column + dx)];
+        auto& cell =
+            cells_[static_cast<std::size_t>(row + dy) * static_cast<std::size_t>(num_columns_) +
+                   static_cast<std::size_t>(column + dx)];
         cell = std::max(cell, value);
       }
     }

@@ -14,14 +14,16 @@ namespace corridor::matching {
 
 struct CorrelativeParams {
   double resolution_m = 0.1;
-  double smear_m = 0.15;              // a point this far from a surface still scores exp(-1/2)
+  double smear_m = 0.15;  // a point this far from a surface still scores exp(-1/2)
   double angle_step_rad = 0.03;
 
   template <class V>
   static void visit(CorrelativeParams& p, V&& v) {
-    v(ParamInfo{"search_resolution_m", "m", "side of a cell and step of the search", 0.01, 1}, p.resolution_m);
+    v(ParamInfo{"search_resolution_m", "m", "side of a cell and step of the search", 0.01, 1},
+      p.resolution_m);
     v(ParamInfo{"search_smear_m", "m", "width of a surface in the image", 0.01, 2}, p.smear_m);
-    v(ParamInfo{"search_angle_step_rad", "rad", "step of the search", 0.001, 0.5}, p.angle_step_rad);
+    v(ParamInfo{"search_angle_step_rad", "rad", "step of the search", 0.001, 0.5},
+      p.angle_step_rad);
   }
 };
 
@@ -50,10 +52,11 @@ class SurfaceImage {
 
 struct CorrelativeResult {
   Pose2 T_map_base;
-  double score = 0;   // mean over the points, 0 to 1
+  double score = 0;  // mean over the points, 0 to 1
 };
 
-// The best pose within +-window_m in x and y and +-window_rad of the centre. Ties go to the nearest.
+// The best pose within +-window_m in x and y and +-window_rad of the centre. Ties go to the
+// nearest.
 CorrelativeResult search(const SurfaceImage& image, std::span<const Eigen::Vector2d> points_base_m,
                          const Pose2& T_map_base_centre, double window_m, double window_rad,
                          const CorrelativeParams& params);

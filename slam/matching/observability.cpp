@@ -28,7 +28,8 @@ ObservableMatch observable_part(const MatchResult& match, const ObservabilityPar
     if (!is_seen) continue;
     ++part.num_observable;
     step -= v * (v.dot(gradient) / lambda);
-    information += v * v.transpose() / (1 / lambda + 1);  // the floor's variance is 1 in these units
+    information +=
+        v * v.transpose() / (1 / lambda + 1);  // the floor's variance is 1 in these units
   }
   part.T_map_base = match.T_map_base.plus(unit.cwiseProduct(step));
   part.information =

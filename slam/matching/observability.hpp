@@ -1,6 +1,7 @@
 // Which directions a scan match constrains, and what it says about those alone.
-// [Zhang2016] (solution remapping by eigenvectors), [Censi2007] (information of a match): directions
-// whose information is no more than noise in the normals explains are left out of the measurement.
+// [Zhang2016] (solution remapping by eigenvectors), [Censi2007] (information of a match):
+// directions whose information is no more than noise in the normals explains are left out of the
+// measurement.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,24 +13,31 @@
 namespace corridor::matching {
 
 struct ObservabilityParams {
-  double min_information_ratio = 0.01;   // of the best direction's; below it a direction is not seen
-  double min_spurious_factor = 4.0;      // times what noisy normals alone would show
-  double translation_floor_m = 0.004;    // systematic error of a match
+  double min_information_ratio = 0.01;  // of the best direction's; below it a direction is not seen
+  double min_spurious_factor = 4.0;     // times what noisy normals alone would show
+  double translation_floor_m = 0.004;   // systematic error of a match
   double rotation_floor_rad = 0.0008;
 
   template <class V>
   static void visit(ObservabilityParams& p, V&& v) {
-    v(ParamInfo{"min_information_ratio", "1", "a direction with less of the best one's information is unobservable", 0, 1}, p.min_information_ratio);
-    v(ParamInfo{"min_spurious_factor", "1", "a direction must show this many times what noise in the normals shows", 0, 1000}, p.min_spurious_factor);
-    v(ParamInfo{"translation_floor_m", "m", "systematic error of a match", 0, 1}, p.translation_floor_m);
-    v(ParamInfo{"rotation_floor_rad", "rad", "systematic error of a match", 0, 1}, p.rotation_floor_rad);
+    v(ParamInfo{"min_information_ratio", "1",
+                "a direction with less of the best one's information is unobservable", 0, 1},
+      p.min_information_ratio);
+    v(ParamInfo{"min_spurious_factor", "1",
+                "a direction must show this many times what noise in the normals shows", 0, 1000},
+      p.min_spurious_factor);
+    v(ParamInfo{"translation_floor_m", "m", "systematic error of a match", 0, 1},
+      p.translation_floor_m);
+    v(ParamInfo{"rotation_floor_rad", "rad", "systematic error of a match", 0, 1},
+      p.rotation_floor_rad);
   }
 };
 
 struct ObservableMatch {
-  Pose2 T_map_base;              // the scan's own optimum in the directions it sees, the prior in the others
-  Eigen::Matrix3d information;   // 3x3, base, order (x_m, y_m, theta_rad); zero along unseen directions
-  int num_observable = 0;        // directions, 0 to 3
+  Pose2 T_map_base;  // the scan's own optimum in the directions it sees, the prior in the others
+  Eigen::Matrix3d
+      information;         // 3x3, base, order (x_m, y_m, theta_rad); zero along unseen directions
+  int num_observable = 0;  // directions, 0 to 3
   Eigen::Vector2d weakest_direction_base = Eigen::Vector2d::UnitX();  // of translation
   double weakest_information_ratio = 0;
 };

@@ -26,12 +26,13 @@ Eigen::RowVector3d row_along(const Eigen::Vector2d& direction_base, const Eigen:
 }
 
 Linearization linearize(SurfelGrid& grid, std::span<const Eigen::Vector2d> points_base,
-                        const Pose2& T_map_base, double range_sigma_m, const MatcherParams& params) {
+                        const Pose2& T_map_base, double range_sigma_m,
+                        const MatcherParams& params) {
   Linearization sum;
   const Eigen::Matrix2d R = T_map_base.rotation();
   const Eigen::Vector2d t = T_map_base.translation_m();
-  const double noise_m2 = params.surface_sigma_m * params.surface_sigma_m +
-                          range_sigma_m * range_sigma_m;
+  const double noise_m2 =
+      params.surface_sigma_m * params.surface_sigma_m + range_sigma_m * range_sigma_m;
   const double kernel2 = params.robust_scale * params.robust_scale;
   const double inlier2 = params.inlier_sigmas * params.inlier_sigmas;
   for (const Eigen::Vector2d& p : points_base) {
@@ -62,9 +63,9 @@ double step_length_m(const Eigen::Vector3d& delta) { return delta.norm(); }
 }  // namespace
 
 MatchResult match_scan(std::span<SurfelGrid* const> levels,
-                       std::span<const Eigen::Vector2d> points_base_m, const Pose2& T_map_base_prior,
-                       const Eigen::Matrix3d& prior_information, double range_sigma_m,
-                       const MatcherParams& params) {
+                       std::span<const Eigen::Vector2d> points_base_m,
+                       const Pose2& T_map_base_prior, const Eigen::Matrix3d& prior_information,
+                       double range_sigma_m, const MatcherParams& params) {
   CORRIDOR_EXPECT(!levels.empty());
   MatchResult result;
   result.T_map_base = T_map_base_prior;

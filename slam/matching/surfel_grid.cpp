@@ -45,9 +45,7 @@ struct SurfelGrid::Cell {
 struct SurfelGrid::Tile {
   std::array<Cell, static_cast<std::size_t>(kTileSide* kTileSide)> cells;
 
-  Cell& at(int x, int y) {
-    return cells[static_cast<std::size_t>(y * kTileSide + x)];
-  }
+  Cell& at(int x, int y) { return cells[static_cast<std::size_t>(y * kTileSide + x)]; }
 };
 
 SurfelGrid::SurfelGrid(double resolution_m) : resolution_m_(resolution_m) {
@@ -66,8 +64,7 @@ const SurfelGrid::Cell* SurfelGrid::cell_at(int x, int y) const {
   const int tile_x = floor_div(x, kTileSide);
   const int tile_y = floor_div(y, kTileSide);
   Tile* tile = tile_at(tile_x, tile_y);
-  return tile == nullptr ? nullptr
-                         : &tile->at(x - tile_x * kTileSide, y - tile_y * kTileSide);
+  return tile == nullptr ? nullptr : &tile->at(x - tile_x * kTileSide, y - tile_y * kTileSide);
 }
 
 void SurfelGrid::insert(std::span<const Eigen::Vector2d> points_m) {
@@ -152,8 +149,9 @@ std::vector<Eigen::Vector2d> SurfelGrid::cell_means_m() const {
       for (int x = 0; x < kTileSide; ++x) {
         const Cell& cell = tile.at(x, y);
         if (cell.num_points == 0) continue;
-        means.emplace_back((tile_x * kTileSide + x + 0.5) * resolution_m_ + cell.x / cell.num_points,
-                           (tile_y * kTileSide + y + 0.5) * resolution_m_ + cell.y / cell.num_points);
+        means.emplace_back(
+            (tile_x * kTileSide + x + 0.5) * resolution_m_ + cell.x / cell.num_points,
+            (tile_y * kTileSide + y + 0.5) * resolution_m_ + cell.y / cell.num_points);
       }
     }
   }

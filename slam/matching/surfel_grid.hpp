@@ -1,6 +1,6 @@
-// A local map of surfaces: a grid whose cells keep the moments of the scan points in them, pooled over
-// 3 x 3 cells into one Gaussian with a normal (normal distributions transform [Biber2003], used
-// point-to-line as in [Censi2008]). Sub-cell exact: a wall lies where its points' mean lies.
+// A local map of surfaces: a grid whose cells keep the moments of the scan points in them, pooled
+// over 3 x 3 cells into one Gaussian with a normal (normal distributions transform [Biber2003],
+// used point-to-line as in [Censi2008]). Sub-cell exact: a wall lies where its points' mean lies.
 // It does not model free space and never forgets a point.
 #pragma once
 
@@ -17,9 +17,9 @@ namespace corridor::matching {
 // The surface near a place, in the grid's frame.
 struct Surfel {
   Eigen::Vector2d mean_m;
-  Eigen::Vector2d normal;       // unit; direction of the smaller spread
-  double normal_variance_m2;    // spread along the normal
-  double tangent_variance_m2;   // spread along the surface
+  Eigen::Vector2d normal;      // unit; direction of the smaller spread
+  double normal_variance_m2;   // spread along the normal
+  double tangent_variance_m2;  // spread along the surface
   double num_points;
 };
 
@@ -32,8 +32,9 @@ class SurfelGrid {
   ~SurfelGrid();
 
   void insert(std::span<const Eigen::Vector2d> points_m);
-  // Surfel of the window around the cell that covers the point; nullptr where fewer than three points
-  // lie. The pointer is valid until the next insert(). Pools lazily, so not for concurrent use.
+  // Surfel of the window around the cell that covers the point; nullptr where fewer than three
+  // points lie. The pointer is valid until the next insert(). Pools lazily, so not for concurrent
+  // use.
   [[nodiscard]] const Surfel* find(const Eigen::Vector2d& point_m);
   // Mean point of every occupied cell, in a fixed order (row by row of tiles).
   [[nodiscard]] std::vector<Eigen::Vector2d> cell_means_m() const;

@@ -33,8 +33,8 @@ class ImuPreintegrator {
  public:
   ImuPreintegrator(const ImuModel& model, const Eigen::Vector3d& bias);
 
-  // Holds one reading for `duration_s` > 0. Rate and force turn into the base frame; the centripetal
-  // part of the lever arm is taken out, its Euler part (angular acceleration) is not.
+  // Holds one reading for `duration_s` > 0. Rate and force turn into the base frame; the
+  // centripetal part of the lever arm is taken out, its Euler part (angular acceleration) is not.
   void integrate(const ImuSample& sample, double duration_s);
   void reset(const Eigen::Vector3d& bias);
   [[nodiscard]] const ImuDelta& delta() const { return delta_; }

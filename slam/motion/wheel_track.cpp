@@ -6,8 +6,7 @@ namespace corridor::motion {
 namespace {
 
 Pose2 along(const WheelSample& from, const WheelSample& to, Timestamp stamp) {
-  const double ratio =
-      seconds_between(from.stamp, stamp) / seconds_between(from.stamp, to.stamp);
+  const double ratio = seconds_between(from.stamp, stamp) / seconds_between(from.stamp, to.stamp);
   return from.T_odom_base.plus(ratio * to.T_odom_base.minus(from.T_odom_base));
 }
 

@@ -1,4 +1,5 @@
-// Scans of simple rooms made of wall segments, cast by a few lines that share no code with the simulator.
+// Scans of simple rooms made of wall segments, cast by a few lines that share no code with the
+// simulator.
 #pragma once
 
 #include <Eigen/Core>
@@ -55,10 +56,9 @@ inline LaserScan scan_of(const std::vector<Wall>& walls, const Pose2& T_map_base
   scan.angle_increment_rad = 2 * std::numbers::pi / 360;
   scan.angle_min_rad = -std::numbers::pi + scan.angle_increment_rad / 2;
   for (std::size_t i = 0; i < 360; ++i) {
-    const double exact =
-        cast(walls, T_map_base.translation_m(),
-             T_map_base.theta_rad() + scan.angle_min_rad +
-                 static_cast<double>(i) * scan.angle_increment_rad);
+    const double exact = cast(walls, T_map_base.translation_m(),
+                              T_map_base.theta_rad() + scan.angle_min_rad +
+                                  static_cast<double>(i) * scan.angle_increment_rad);
     const double measured = exact + rng.normal(0, sigma_m);
     const bool is_valid = exact < range_m && measured > 0 && measured <= range_m;
     scan.ranges_m.push_back(static_cast<float>(is_valid ? measured : range_m + 1));

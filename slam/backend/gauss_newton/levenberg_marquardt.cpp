@@ -54,7 +54,8 @@ class LeastSquares final : public BackEnd {
 
   Result<Eigen::MatrixXd> marginal_covariance(Key key) override {
     if (!equations_.contains(key)) {
-      return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key), "marginal covariance");
+      return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key),
+                  "marginal covariance");
     }
     equations_.linearize(graph_, values_);
     if (factorize(equations_.lower_hessian()) != linear::CholeskyStatus::kOk) {

@@ -37,8 +37,8 @@ void NormalEquations::add_factor(graph::FactorId id, const graph::Factor& factor
   for (std::size_t a = 0; a < keys.size(); ++a) {
     for (std::size_t b = 0; b < keys.size(); ++b) {
       if (indices[a] < indices[b]) continue;
-      plan.targets.push_back({blocks_.slot(indices[a], indices[b]), offsets[a],
-                              keys[a].dimension(), offsets[b], keys[b].dimension()});
+      plan.targets.push_back({blocks_.slot(indices[a], indices[b]), offsets[a], keys[a].dimension(),
+                              offsets[b], keys[b].dimension()});
     }
   }
   if (plans_.size() <= id) plans_.resize(id + 1);

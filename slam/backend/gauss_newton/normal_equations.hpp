@@ -43,13 +43,13 @@ class NormalEquations {
   };
   struct FactorPlan {
     std::vector<BlockTarget> targets;
-    std::vector<int> first_rows;     // per key, of the gradient
+    std::vector<int> first_rows;  // per key, of the gradient
   };
 
   linear::BlockMatrix blocks_;
   std::map<graph::Key, int> index_of_;
   std::vector<graph::Key> variables_;
-  std::vector<FactorPlan> plans_;    // by FactorId
+  std::vector<FactorPlan> plans_;  // by FactorId
   Eigen::VectorXd gradient_;
   Eigen::SparseMatrix<double> lower_;
 };

@@ -12,9 +12,12 @@ const Eigen::Matrix2d kTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
 
 Eigen::VectorXd vector_value(const Values& values, Key key) {
   switch (key.kind) {
-    case VariableKind::kVelocity: return values.velocity(key.index);
-    case VariableKind::kBias: return values.bias(key.index);
-    default: return Eigen::VectorXd::Constant(1, values.wheel_scale(key.index));
+    case VariableKind::kVelocity:
+      return values.velocity(key.index);
+    case VariableKind::kBias:
+      return values.bias(key.index);
+    default:
+      return Eigen::VectorXd::Constant(1, values.wheel_scale(key.index));
   }
 }
 
@@ -41,9 +44,8 @@ ImuTerms imu_terms(const std::array<Key, 5>& keys, const motion::ImuDelta& delta
   ImuTerms terms;
   terms.R_i_transposed = pose_i.rotation().transpose();
   terms.velocity_change = terms.R_i_transposed * (values.velocity(keys[4].index) - velocity_i);
-  terms.displacement =
-      terms.R_i_transposed *
-      (pose_j.translation_m() - pose_i.translation_m() - velocity_i * d.duration_s);
+  terms.displacement = terms.R_i_transposed * (pose_j.translation_m() - pose_i.translation_m() -
+                                               velocity_i * d.duration_s);
   terms.error(0) = wrap_angle(pose_j.theta_rad() - pose_i.theta_rad() - d.theta_rad);
   terms.error.segment<2>(1) = terms.velocity_change - d.velocity_mps;
   terms.error.segment<2>(3) = terms.displacement - d.position_m;

@@ -12,11 +12,12 @@
 namespace corridor::graph {
 
 // [Forster2017] eq. 45 in the plane; keys (pose i, velocity i, bias i, pose j, velocity j).
-// e = ( wrap(theta_j - theta_i - dtheta(b)), R_i^T (v_j - v_i) - dv(b), R_i^T (p_j - p_i - v_i dt) - dp(b) ),
-// 5 rows, whitened with the delta's covariance.
+// e = ( wrap(theta_j - theta_i - dtheta(b)), R_i^T (v_j - v_i) - dv(b), R_i^T (p_j - p_i - v_i dt)
+// - dp(b) ), 5 rows, whitened with the delta's covariance.
 class ImuMotion final : public Factor {
  public:
-  // Index i and j name pose, velocity and bias of one keyframe. The delta must last longer than 0 s.
+  // Index i and j name pose, velocity and bias of one keyframe. The delta must last longer than 0
+  // s.
   ImuMotion(std::uint32_t i, std::uint32_t j, const motion::ImuDelta& delta);
 
   [[nodiscard]] std::string_view type() const override { return "imu_motion"; }

@@ -1,8 +1,9 @@
 // Factors on planar poses: prior, relative pose, and relative pose in some directions only.
-// Error of a relative pose [Konolige2010] eq. 2, with the group's logarithm instead of the component
-// difference: e = Log(z^-1 * (T_map_i^-1 * T_map_j)) = Log(Z_j_j'), in the frame of the measured j.
-// `spa_error` = true gives the component form of g2o and SPA instead: e = (R_z^T (R_i^T (t_j - t_i) - z_t),
-// wrap(theta_j - theta_i - z_theta)); both agree to first order and have the same minimum for chi2 = 0.
+// Error of a relative pose [Konolige2010] eq. 2, with the group's logarithm instead of the
+// component difference: e = Log(z^-1 * (T_map_i^-1 * T_map_j)) = Log(Z_j_j'), in the frame of the
+// measured j. RelativePoseError::kComponents gives the form of g2o instead: e = (R_z^T (R_i^T (t_j
+// - t_i) - z_t), wrap(theta_j - theta_i - theta_z)); both agree to first order and are zero at the
+// same poses.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +13,9 @@
 
 namespace corridor::graph {
 
-// U with U^T U = information for a positive semi-definite 3x3 matrix: row i = sqrt(lambda_i) v_i^T of its
-// eigen-decomposition. Rows of zeros (lambda_i <= 1e-15 of the largest) stand for unconstrained directions.
+// U with U^T U = information for a positive semi-definite 3x3 matrix: row i = sqrt(lambda_i) v_i^T
+// of its eigen-decomposition. Rows of zeros (lambda_i <= 1e-15 of the largest) stand for
+// unconstrained directions.
 Eigen::Matrix3d square_root_information(const Eigen::Matrix3d& information);
 
 // e = Log(prior^-1 * T_map_base), tangent order (x_m, y_m, theta_rad).
@@ -39,7 +41,8 @@ enum class RelativePoseError { kLogarithm, kComponents };
 
 class RelativePose final : public Factor {
  public:
-  // T_i_j measured; sqrt_information 3x3 in the frame of j (kLogarithm) or as g2o's Omega (kComponents).
+  // T_i_j measured; sqrt_information 3x3 in the frame of j (kLogarithm) or as g2o's Omega
+  // (kComponents).
   RelativePose(Key pose_i, Key pose_j, const Pose2& T_i_j, const Eigen::Matrix3d& sqrt_information,
                RelativePoseError error = RelativePoseError::kLogarithm);
 

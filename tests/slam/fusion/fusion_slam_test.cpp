@@ -44,8 +44,8 @@ Outcome run(const FusionParams& params, const SensorLog& log) {
 }
 
 double position_rmse_m(const Trajectory& estimate, const Trajectory& truth) {
-  const Pose2 T_truth_map = *truth.interpolate(estimate.front().stamp) *
-                            estimate.front().T_map_base.inverse();
+  const Pose2 T_truth_map =
+      *truth.interpolate(estimate.front().stamp) * estimate.front().T_map_base.inverse();
   double sum = 0;
   for (const TrajectoryPose& pose : estimate.poses()) {
     const Pose2 aligned = T_truth_map * pose.T_map_base;
@@ -64,8 +64,8 @@ std::string bytes_of(const Trajectory& trajectory) {
   return bytes;
 }
 
-// Ten times what was seen over the development seeds (0.007 to 0.04 m), a tenth of what the wheels or
-// scan matching alone lose.
+// Ten times what was seen over the development seeds (0.007 to 0.04 m), a tenth of what the wheels
+// or scan matching alone lose.
 constexpr double kCorridorTolerance_m = 0.15;
 
 TEST(FusionSlam, KeepsTheCorridorsLengthWhereScanMatchingCannotSeeIt) {
@@ -154,7 +154,8 @@ TEST(FusionSlam, AStandingRobotStays) {
   for (int i = 0; i < 100; ++i) {
     const Timestamp stamp = timestamp_from_seconds(0.1 * i);
     log.events.push_back(WheelSample{stamp, {}, std::nullopt});
-    log.events.push_back(ImuSample{stamp, rng.normal(0.002, 0.01), rng.normal(0.02, 0.05), rng.normal(0, 0.05)});
+    log.events.push_back(
+        ImuSample{stamp, rng.normal(0.002, 0.01), rng.normal(0.02, 0.05), rng.normal(0, 0.05)});
     log.events.push_back(testing::scan_of(testing::room(), {}, 30, 0.01, rng, stamp));
   }
   log.robot.imu.rate_hz = 10;

@@ -50,8 +50,9 @@ class BothMethods : public ::testing::TestWithParam<bool> {
  protected:
   FusionParams params_ = GetParam() ? FusionParams{} : fusion_paper_params();
 };
-INSTANTIATE_TEST_SUITE_P(, BothMethods, ::testing::Bool(),
-                         [](const auto& method) { return method.param ? "Fusion" : "FusionPaper"; });
+INSTANTIATE_TEST_SUITE_P(, BothMethods, ::testing::Bool(), [](const auto& method) {
+  return method.param ? "Fusion" : "FusionPaper";
+});
 
 TEST_P(BothMethods, UseEverySensorWhenAllAreHealthy) {
   const Chosen chosen = choose(healthy(), params_);
@@ -91,8 +92,8 @@ TEST(FusionPaper, AStandingRobotsUnchangedViewIsNoDegradation) {
 
 TEST(FusionPaper, KeepsTheLeastBadSensorWhenBothAreDegraded) {
   Interval interval = healthy();
-  interval.range_difference_m = 0.02;            // 1.4 times beyond its threshold
-  interval.wheel_T_i_j = Pose2(1.0, 0, 0);       // far beyond its own
+  interval.range_difference_m = 0.02;       // 1.4 times beyond its threshold
+  interval.wheel_T_i_j = Pose2(1.0, 0, 0);  // far beyond its own
   const Chosen chosen = choose(interval, fusion_paper_params());
   EXPECT_TRUE(chosen.verdict.is_slip);
   EXPECT_TRUE(chosen.verdict.is_degenerate);
@@ -105,7 +106,7 @@ TEST(Fusion, TakesFromTheLidarOnlyTheDirectionsItSees) {
   Interval interval = healthy();
   interval.match->information = Eigen::Vector3d(0, 1e4, 1e4).asDiagonal();
   interval.match->num_observable = 2;
-  interval.match->T_map_base = Pose2(0, 0, 0);   // would pull back by 0.2 m along x
+  interval.match->T_map_base = Pose2(0, 0, 0);  // would pull back by 0.2 m along x
   const Chosen chosen = choose(interval, {});
   EXPECT_TRUE(chosen.verdict.is_degenerate);
   graph::Values values;

@@ -80,7 +80,8 @@ TEST(SlipTest, IsLessSureTheLongerNothingAnchoredTheVelocity) {
   const WheelNoise noise = nominal_wheel_noise(wheels, WheelModel{}, params);
   const motion::ImuDelta imu = imu_at_constant_velocity(0.4);
   const auto measure = [&](double age_s) {
-    return test_slip(wheels, noise, imu, {0.5, 0}, age_s, ImuModel{}, params).measure_over_threshold;
+    return test_slip(wheels, noise, imu, {0.5, 0}, age_s, ImuModel{}, params)
+        .measure_over_threshold;
   };
   EXPECT_GT(measure(0.4), measure(5));
   EXPECT_GT(measure(5), measure(50));

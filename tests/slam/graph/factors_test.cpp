@@ -110,8 +110,7 @@ RC_GTEST_PROP(RelativePose, Chi2DoesNotDependOnTheMapFrame, (std::uint64_t seed)
   const Pose2 gauge = random_pose(rng);
   Values moved;
   for (std::uint32_t i = 0; i < 2; ++i) moved.set_pose(i, gauge * values.pose(i));
-  RC_ASSERT(std::abs(factor.chi2(values) - factor.chi2(moved)) <=
-            1e-7 * (1 + factor.chi2(values)));
+  RC_ASSERT(std::abs(factor.chi2(values) - factor.chi2(moved)) <= 1e-7 * (1 + factor.chi2(values)));
 }
 
 RC_GTEST_PROP(SquareRootInformation, SquaresToTheInformation, (std::uint64_t seed)) {

@@ -83,7 +83,8 @@ TEST(SparseCholesky, SaysWhenAnUnknownIsUndetermined) {
   // Two unknowns of which only the difference is known.
   Eigen::MatrixXd dense(2, 2);
   dense << 1, -1, -1, 1;
-  Eigen::SparseMatrix<double> lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
+  Eigen::SparseMatrix<double> lower =
+      Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
   lower.makeCompressed();
   SparseCholesky cholesky;
   const std::vector<int> starts = {0, 1, 2};

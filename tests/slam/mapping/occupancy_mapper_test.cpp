@@ -93,9 +93,7 @@ TEST(OccupancyMapper, CountsEveryValidBeamOnce) {
   EXPECT_EQ(hits, 360);
 }
 
-TEST(OccupancyMapper, NoScansGiveAnEmptyMap) {
-  EXPECT_TRUE(build_occupancy_map({}, {}).empty());
-}
+TEST(OccupancyMapper, NoScansGiveAnEmptyMap) { EXPECT_TRUE(build_occupancy_map({}, {}).empty()); }
 
 }  // namespace
 }  // namespace corridor::mapping

@@ -16,8 +16,7 @@ RC_GTEST_PROP(CorrelativeSearch, FindsADisplacedScanWithinAStep, (std::uint64_t 
   const Pose2 truth(rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8), rng.uniform(-0.3, 0.3));
   const LaserScan scan = testing::scan_of(walls, truth, 30, 0.01, rng);
   const SurfaceImage image(testing::points_of(reference), params);
-  const CorrelativeResult found =
-      search(image, testing::points_of(scan), {}, 1.0, 0.4, params);
+  const CorrelativeResult found = search(image, testing::points_of(scan), {}, 1.0, 0.4, params);
   RC_ASSERT(std::abs(found.T_map_base.x_m() - truth.x_m()) < 2 * params.resolution_m);
   RC_ASSERT(std::abs(found.T_map_base.y_m() - truth.y_m()) < 2 * params.resolution_m);
   RC_ASSERT(std::abs(found.T_map_base.theta_rad() - truth.theta_rad()) < 2 * params.angle_step_rad);
@@ -50,7 +49,8 @@ TEST(SurfaceImage, FallsOffWithTheDistanceToTheSurface) {
     return image.at(static_cast<int>(cell.x()), static_cast<int>(cell.y()));
   };
   EXPECT_NEAR(value(2.005, 1.005), 255, 2);
-  EXPECT_NEAR(value(2.105, 1.005), 255 * std::exp(-0.5), 12);  // a cell of 1 cm at a slope of 1.5 / mm
+  EXPECT_NEAR(value(2.105, 1.005), 255 * std::exp(-0.5),
+              12);  // a cell of 1 cm at a slope of 1.5 / mm
   EXPECT_EQ(value(2.405, 1.005), 0);
 }
 

@@ -43,26 +43,25 @@ RC_GTEST_PROP(MatchScan, RecoversADisplacementInARoom, (std::uint64_t seed)) {
   const auto walls = testing::room();
   LocalMap map = map_of(walls, 30, rng);
   const Pose2 truth(rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), rng.uniform(-0.1, 0.1));
-  const auto points =
-      testing::points_of(testing::scan_of(walls, truth, 30, kRangeSigma_m, rng));
+  const auto points = testing::points_of(testing::scan_of(walls, truth, 30, kRangeSigma_m, rng));
   const MatchResult result = map.match(points, {});
   RC_ASSERT(result.is_usable());
-  // 360 ranges of 15 mm fix the pose to about 1.5 mm and 0.3 mrad; five of those and the map's error.
+  // 360 ranges of 15 mm fix the pose to about 1.5 mm and 0.3 mrad; five of those and the map's
+  // error.
   const Pose2::Tangent error = result.T_map_base.minus(truth);
   RC_ASSERT(error.head<2>().norm() < 0.012);
   RC_ASSERT(std::abs(error.z()) < 0.003);
   RC_ASSERT(observable_part(result, {}).num_observable == 3);
 }
 
-// The corridor's walls end where the range ends, and the robot moved 0.3 m along: nothing in the scan
-// says so, and nothing may pull back to zero displacement.
+// The corridor's walls end where the range ends, and the robot moved 0.3 m along: nothing in the
+// scan says so, and nothing may pull back to zero displacement.
 RC_GTEST_PROP(MatchScan, IsNotDrawnBackAlongARangeLimitedCorridor, (std::uint64_t seed)) {
   Rng rng(seed);
   const auto walls = testing::corridor_walls();
   LocalMap map = map_of(walls, 4.5, rng);
   const Pose2 truth(1.0, 0.05, 0.02);
-  const auto points =
-      testing::points_of(testing::scan_of(walls, truth, 4.5, kRangeSigma_m, rng));
+  const auto points = testing::points_of(testing::scan_of(walls, truth, 4.5, kRangeSigma_m, rng));
   // A weak prior: 5 cm and 0.05 rad.
   const Eigen::Matrix3d prior = Eigen::Vector3d(400, 400, 400).asDiagonal();
   const MatchResult result = map.match(points, truth, prior);
@@ -83,8 +82,8 @@ RC_GTEST_PROP(MatchScan, IsNotDrawnBackAlongARangeLimitedCorridor, (std::uint64_
 }
 
 TEST(MatchScan, MeanErrorAlongACorridorIsNoPullToZero) {
-  // Over 60 trials the mean shift along the corridor must vanish within five standard errors and stay
-  // below 3 mm for a displacement of 0.5 m: a bias to standing still would show as -x.
+  // Over 60 trials the mean shift along the corridor must vanish within five standard errors and
+  // stay below 3 mm for a displacement of 0.5 m: a bias to standing still would show as -x.
   const auto walls = testing::corridor_walls();
   const Eigen::Matrix3d prior = Eigen::Vector3d(400, 400, 400).asDiagonal();
   double sum = 0, sum2 = 0;
@@ -93,8 +92,7 @@ TEST(MatchScan, MeanErrorAlongACorridorIsNoPullToZero) {
     Rng rng(1000 + trial);
     LocalMap map = map_of(walls, 4.5, rng);
     const Pose2 truth(0.5, 0, 0);
-    const auto points =
-        testing::points_of(testing::scan_of(walls, truth, 4.5, kRangeSigma_m, rng));
+    const auto points = testing::points_of(testing::scan_of(walls, truth, 4.5, kRangeSigma_m, rng));
     const double shift = map.match(points, truth, prior).T_map_base.x_m() - truth.x_m();
     sum += shift;
     sum2 += shift * shift;

@@ -30,7 +30,8 @@ std::vector<ImuSample> random_samples(Rng& rng, int count) {
 }
 
 TEST(ImuPreintegrator, UniformAccelerationGivesTheSchoolFormula) {
-  const ImuDelta delta = integrate(std::vector<ImuSample>(200, {{}, 0, 2, 0}), Eigen::Vector3d::Zero());
+  const ImuDelta delta =
+      integrate(std::vector<ImuSample>(200, {{}, 0, 2, 0}), Eigen::Vector3d::Zero());
   EXPECT_NEAR(delta.duration_s, 1, 1e-12);
   EXPECT_NEAR(delta.velocity_mps.x(), 2, 1e-12);
   EXPECT_NEAR(delta.position_m.x(), 1, 1e-12);
@@ -52,17 +53,20 @@ TEST(ImuPreintegrator, CircularMotionComesBackToItsStart) {
 }
 
 TEST(ImuPreintegrator, TakesTheCentripetalPartOfTheLeverArmOut) {
-  // Turning on the spot at 2 rad/s with the IMU 0.5 m ahead: it feels -2 m/s^2 along x, the base nothing.
+  // Turning on the spot at 2 rad/s with the IMU 0.5 m ahead: it feels -2 m/s^2 along x, the base
+  // nothing.
   ImuModel model;
   model.T_base_imu = Pose2(0.5, 0, 0);
-  const ImuDelta delta = integrate(std::vector<ImuSample>(100, {{}, 2, -2, 0}), Eigen::Vector3d::Zero(), model);
+  const ImuDelta delta =
+      integrate(std::vector<ImuSample>(100, {{}, 2, -2, 0}), Eigen::Vector3d::Zero(), model);
   EXPECT_NEAR(delta.position_m.norm(), 0, 1e-12);
 }
 
 TEST(ImuPreintegrator, TurnsTheForceFromTheImusIntoTheBaseFrame) {
   ImuModel model;
   model.T_base_imu = Pose2(0, 0, M_PI / 2);
-  const ImuDelta delta = integrate(std::vector<ImuSample>(200, {{}, 0, 0, -1}), Eigen::Vector3d::Zero(), model);
+  const ImuDelta delta =
+      integrate(std::vector<ImuSample>(200, {{}, 0, 0, -1}), Eigen::Vector3d::Zero(), model);
   EXPECT_NEAR(delta.velocity_mps.x(), 1, 1e-12);
   EXPECT_NEAR(delta.velocity_mps.y(), 0, 1e-12);
 }
