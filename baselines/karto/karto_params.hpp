@@ -1,6 +1,10 @@
 // Parameters of the Karto-style baseline; the defaults are the values the original ships with.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "slam/core/params.hpp"
 
 namespace corridor::karto {
@@ -62,6 +66,16 @@ struct KartoParams {
     visit_map_and_switches(p, v);
   }
 
+  // Rules across fields.
+  [[nodiscard]] std::vector<std::string> relations() const {
+    std::vector<std::string> broken;
+    check_smear("match_smear_m", match_smear_m, match_resolution_m, broken);
+    check_smear("loop_smear_m", loop_smear_m, loop_resolution_m, broken);
+    check_grid("match_resolution_m", match_resolution_m, match_window_m, broken);
+    check_grid("loop_resolution_m", loop_resolution_m, loop_window_m, broken);
+    return broken;
+  }
+
  private:
   template <class V>
   static void visit_key_scans(KartoParams& p, V& v) {
@@ -118,15 +132,6 @@ struct KartoParams {
     v(ParamInfo{"use_plain_mean_heading", "", "headings of several matches are averaged unweighted; false: by their information"}, p.use_plain_mean_heading);
   }
 
- public:
-  [[nodiscard]] std::vector<std::string> relations() const {
-    std::vector<std::string> broken;
-    check_smear("match_smear_m", match_smear_m, match_resolution_m, broken);
-    check_smear("loop_smear_m", loop_smear_m, loop_resolution_m, broken);
-    return broken;
-  }
-
- private:
   static void check_smear(std::string_view name, double smear_m, double resolution_m,
                           std::vector<std::string>& broken) {
     constexpr double kMinCells = 0.5;
@@ -134,6 +139,17 @@ struct KartoParams {
     if (smear_m >= kMinCells * resolution_m && smear_m <= kMaxCells * resolution_m) return;
     broken.push_back(fmt::format("{} = {}: expected {} to {} times the resolution {} m", name,
                                  smear_m, kMinCells, kMaxCells, resolution_m));
+  }
+
+  // One byte a cell, and linear indices of 32 bits.
+  void check_grid(std::string_view name, double resolution_m, double window_m,
+                  std::vector<std::string>& broken) const {
+    constexpr double kMaxHalfSide_cells = 12000;
+    constexpr double kLongestDefaultRange_m = 12;
+    const double range_m = range_threshold_m > 0 ? range_threshold_m : kLongestDefaultRange_m;
+    if (0.5 * window_m + range_m <= kMaxHalfSide_cells * resolution_m) return;
+    broken.push_back(fmt::format("{} = {}: expected at least range threshold + half window over {}",
+                                 name, resolution_m, kMaxHalfSide_cells));
   }
 };
 

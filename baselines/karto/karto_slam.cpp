@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "baselines/karto/between_key_scans.hpp"
-#include "baselines/karto/key_scan_test.hpp"
+#include "baselines/karto/key_scan_rule.hpp"
 #include "baselines/karto/mapper.hpp"
 #include "baselines/karto/occupancy_rule.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/motion/dense_path.hpp"
 #include "slam/motion/wheel_track.hpp"
 
 namespace corridor::karto {
@@ -24,12 +24,6 @@ StepReport nothing_to_do(Timestamp stamp) {
   report.stamp = stamp;
   return report;
 }
-
-struct ScanRecord {
-  Timestamp stamp;
-  std::optional<Pose2> T_odom_base;  // none: no wheel odometry so far
-  std::optional<KeyScanId> key_scan;
-};
 
 double range_threshold_of(const KartoParams& params, const RobotModel& robot,
                           const LaserScan& scan) {
@@ -61,7 +55,7 @@ class KartoSlam::Impl {
   Result<StepReport> take(const LaserScan& scan) {
     if (auto error = defect_of(scan)) return tl::make_unexpected(*error);
     update_odometry(scan.stamp);
-    records_.push_back({scan.stamp, T_odom_base_, std::nullopt});
+    records_.push_back({scan.stamp, T_odom_base_.value_or(Pose2{}), false});
     if (T_odom_base_) consider(scan);
     return report(scan.stamp);
   }
@@ -75,8 +69,7 @@ class KartoSlam::Impl {
                   "wheel samples");
     }
     if (mapper_) mapper_->publish_poses();
-    for (const TrajectoryPose& pose : final_poses())
-      CORRIDOR_ENSURE(estimate.trajectory.append(pose));
+    estimate.trajectory = final_trajectory();
     estimate.map = mapper_ ? build_karto_map(mapper_->scans(), T_map_start_->inverse(),
                                              range_threshold_m_, params_)
                            : GridMap{};
@@ -107,10 +100,16 @@ class KartoSlam::Impl {
     const auto in_stage = clock_.enter(Stage::kPredict);
     if (const auto T_odom_base = wheels_.pose_at(stamp)) {
       T_odom_base_ = T_odom_base;
-      if (!T_map_start_) T_map_start_ = T_odom_base;
+      if (!T_map_start_) start_at(*T_odom_base);
     } else {
       ++num_without_odometry_;
     }
+  }
+
+  // Scans seen before any odometry count as taken here.
+  void start_at(const Pose2& T_odom_base) {
+    T_map_start_ = T_odom_base;
+    for (motion::ScanRecord& record : records_) record.T_odom_base = T_odom_base;
   }
 
   // Makes a key scan of it if it is worth one.
@@ -133,24 +132,22 @@ class KartoSlam::Impl {
     } else if (!is_key_scan(mapper_->scans().back(), *candidate, params_)) {
       return;
     } else {
-      candidate->set_T_map_sensor(last_anchor().carried_to(*T_odom_base_) * scan.T_base_lidar);
+      candidate->set_T_map_sensor(predicted_T_map_base() * scan.T_base_lidar);
     }
     mapper_->add(std::move(*candidate));
-    key_anchors_odom_.push_back(*T_odom_base_);
-    records_.back().key_scan = mapper_->scans().back().id;
+    T_odom_last_key_ = *T_odom_base_;
+    records_.back().is_key = true;
   }
 
-  [[nodiscard]] Anchor anchor(KeyScanId id) const {
-    return {key_anchors_odom_[id], mapper_->scans()[id].T_map_base()};
-  }
-  [[nodiscard]] Anchor last_anchor() const {
-    return anchor(static_cast<KeyScanId>(key_anchors_odom_.size() - 1));
+  // The last key scan's pose, carried on by odometry.
+  [[nodiscard]] Pose2 predicted_T_map_base() const {
+    return mapper_->scans().back().T_map_base() * T_odom_last_key_.between(*T_odom_base_);
   }
 
   // In the frame of the first scan. Before any odometry: where the robot will be found standing.
   [[nodiscard]] Pose2 online_pose() const {
     if (!T_odom_base_) return {};
-    const Pose2 T_map_base = mapper_ ? last_anchor().carried_to(*T_odom_base_) : *T_odom_base_;
+    const Pose2 T_map_base = mapper_ ? predicted_T_map_base() : *T_odom_base_;
     return T_map_start_->between(T_map_base);
   }
 
@@ -158,43 +155,29 @@ class KartoSlam::Impl {
     StepReport report = nothing_to_do(stamp);
     report.status = StepStatus::kTracked;
     report.T_map_base = online_pose();
-    report.is_key_scan = records_.back().key_scan.has_value();
+    report.is_key_scan = records_.back().is_key;
     return report;
   }
 
-  [[nodiscard]] std::vector<TrajectoryPose> final_poses() const {
-    std::vector<TrajectoryPose> poses;
-    std::vector<std::size_t> key_records;
-    for (std::size_t i = 0; i < records_.size(); ++i) {
-      if (records_[i].key_scan) key_records.push_back(i);
+  // A log may begin with scans that were no key scans: odometry carries back from the first one.
+  [[nodiscard]] Trajectory final_trajectory() const {
+    std::vector<motion::ScanRecord> records = records_;
+    std::vector<Pose2> key_poses;
+    if (!records.front().is_key) {
+      records.front().is_key = true;
+      key_poses.push_back(T_map_start_->between(records.front().T_odom_base));
     }
-    std::size_t num_passed = 0;  // key scans at or before the record
-    for (std::size_t i = 0; i < records_.size(); ++i) {
-      if (records_[i].key_scan) ++num_passed;
-      poses.push_back(
-          {records_[i].stamp, T_map_start_->between(final_pose(i, key_records, num_passed)), {}});
+    if (mapper_) {
+      for (const KeyScan& scan : mapper_->scans()) {
+        key_poses.push_back(T_map_start_->between(scan.T_map_base()));
+      }
     }
-    return poses;
-  }
-
-  // In the mapper's frame.
-  [[nodiscard]] Pose2 final_pose(std::size_t record, const std::vector<std::size_t>& key_records,
-                                 std::size_t num_passed) const {
-    const Pose2 T_odom_base = records_[record].T_odom_base.value_or(*T_map_start_);
-    if (key_records.empty()) return T_odom_base;
-    if (num_passed == 0) return anchor(0).carried_to(T_odom_base);
-    const auto id = static_cast<KeyScanId>(num_passed - 1);
-    if (records_[record].key_scan) return anchor(id).T_map_base;
-    if (num_passed == key_records.size()) return anchor(id).carried_to(T_odom_base);
-    // By the scan's number, not its stamp: every scan takes an equal share of the correction.
-    const auto passed = static_cast<double>(record - key_records[id]);
-    const double ratio = passed / static_cast<double>(key_records[id + 1] - key_records[id]);
-    return pose_between(anchor(id), anchor(id + 1), ratio, T_odom_base);
+    return motion::dense_path(records, key_poses);
   }
 
   [[nodiscard]] std::map<std::string, double> counters() const {
     std::map<std::string, double> totals = {
-        {"key_scans", static_cast<double>(key_anchors_odom_.size())},
+        {"key_scans", mapper_ ? static_cast<double>(mapper_->scans().size()) : 0.0},
         {"unusable_scans", num_unusable_},
         {"scans_without_odometry", num_without_odometry_}};
     if (!mapper_) return totals;
@@ -221,8 +204,8 @@ class KartoSlam::Impl {
   std::optional<Pose2> T_map_start_;
   double range_threshold_m_ = 0;
   std::optional<Mapper> mapper_;
-  std::vector<ScanRecord> records_;
-  std::vector<Pose2> key_anchors_odom_;
+  std::vector<motion::ScanRecord> records_;
+  Pose2 T_odom_last_key_;
   int num_unusable_ = 0;
   int num_without_odometry_ = 0;
 };

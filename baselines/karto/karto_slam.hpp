@@ -12,8 +12,6 @@
 
 namespace corridor::karto {
 
-class Mapper;
-
 // Scans without wheel odometry near their stamp, and scans without a single beam in range, are tracked
 // with the last odometry and never become key scans; counters: "scans_without_odometry", "unusable_scans".
 class KartoSlam final : public SlamSystem, public graph::GraphSource {
