@@ -15,8 +15,8 @@ namespace corridor::results {
 enum class CaseStatus {
   kOk,        // ran to the end and every expected pose was matched
   kPartial,   // ran to the end, but poses are missing
-  kDiverged,  // a pose or map is not finite, or the system itself reported that it is lost at the
-              // end
+  kDiverged,  // ran to the end, but is lost: not finite, by its own report, or by its error
+              // (run_case.cpp)
   kFailed,    // the system returned an error, or the process crashed
   kTimeout,
   kOutOfMemory,

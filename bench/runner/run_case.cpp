@@ -102,10 +102,37 @@ void take_counters(const SlamEstimate& estimate, RunResult& result) {
   }
 }
 
-void settle_status(const Drive& run, RunResult& result) {
+// A run that ended is lost all the same when its map is of no use: the mean error of relations set
+// up by hand is ten times what published systems reach, or the position error a quarter of the
+// path.
+constexpr double kLostRelationError_m = 0.5;
+constexpr double kLostPathRatio = 0.25;
+
+std::optional<std::string> why_lost(const CaseData& data, const RunResult& result) {
+  const auto relation_m = result.final_relations.relations_translation_mean_m;
+  if (relation_m && *relation_m > kLostRelationError_m) {
+    return fmt::format("lost: mean relation error {:.3f} m, expected at most {} m", *relation_m,
+                       kLostRelationError_m);
+  }
+  const auto position_m = result.final_scores.position_rmse_m;
+  if (!position_m || !data.log.truth) return std::nullopt;
+  const double limit_m = kLostPathRatio * data.log.truth->path_length_m();
+  if (*position_m <= limit_m) return std::nullopt;
+  return fmt::format(
+      "lost: position RMSE {:.3f} m, expected at most {:.3f} m, a quarter of the path", *position_m,
+      limit_m);
+}
+
+void settle_status(const CaseData& data, const Drive& run, RunResult& result) {
   result.status = run.status;
   result.status_message = run.status_message;
-  if (run.status != CaseStatus::kOk || !result.poses_expected || !result.poses_matched) return;
+  if (run.status != CaseStatus::kOk) return;
+  if (const std::optional<std::string> reason = why_lost(data, result)) {
+    result.status = CaseStatus::kDiverged;
+    result.status_message = *reason;
+    return;
+  }
+  if (!result.poses_expected || !result.poses_matched) return;
   if (*result.poses_matched < *result.poses_expected) {
     result.status = CaseStatus::kPartial;
     result.status_message =
@@ -172,7 +199,7 @@ Result<RunResult> run_case(const CaseSpec& spec, const catalog::DataDirs& dirs,
   }
   const std::vector<std::string> remarks = score(*data, run, rendered_map, result);
   score_cost(run, (*system)->stage_clock(), data->log.duration_s(), result);
-  settle_status(run, result);
+  settle_status(*data, run, result);
 
   const Result<void> written = write_folder_atomically(
       case_folder(out, result.case_id), [&](const std::filesystem::path& folder) -> Result<void> {

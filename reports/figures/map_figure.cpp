@@ -41,14 +41,14 @@ bool is_shown(const Series& series, bool has_truth) {
 
 std::string heading_of(const Cases& cases, const Series& series, const Case& entry,
                        const Scene& scene) {
+  // Three panels share a row: the caption says what the length and the star mean.
   std::string heading = cases.label(series);
+  if (scene.is_map_rendered) heading += "*";
   const auto error_m = reports::position_error().value(entry.result);
   const auto relation_m = reports::relation_translation_mean().value(entry.result);
-  if (error_m) heading += fmt::format(", position error {:.3f} m", *error_m);
-  if (!error_m && relation_m) heading += fmt::format(", relation error {:.3f} m", *relation_m);
-  if (scene.is_map_rendered) heading += " (common mapper)";
+  if (error_m || relation_m) heading += fmt::format(": {:.3f} m", error_m ? *error_m : *relation_m);
   if (entry.result.status != results::CaseStatus::kOk) {
-    heading += fmt::format(" ({})", results::to_text(entry.result.status));
+    heading += ", " + results::to_text(entry.result.status);
   }
   return heading;
 }
@@ -165,13 +165,15 @@ std::optional<Figure> map_figure(const Cases& cases, const std::string& dataset,
     draw_panel(svg, panels[index], bounds[index], kGap_px + column * (width_px + kGap_px),
                row * row_px + 4, width_px, height_px);
   }
-  std::string caption =
-      fmt::format("Maps of {}: occupied black, free white, unknown grey.", dataset);
+  std::string caption = fmt::format(
+      "Maps of {}: occupied black, free white, unknown grey. Lengths: position RMSE "
+      "(mean relation error on recorded data).",
+      dataset);
   if (has_walls) caption += " Lines: the true walls, first poses aligned; one scale for all.";
   const bool has_rendered = std::any_of(
       panels.begin(), panels.end(), [](const Panel& panel) { return panel.scene.is_map_rendered; });
   if (has_rendered) {
-    caption += " Common mapper: the system makes no map; this one is drawn from its trajectory.";
+    caption += " *: the system makes no map; the common mapper drew this one from its trajectory.";
   }
   if (representative) caption += " " + representative->reason;
   return Figure{std::move(svg), std::move(caption)};
