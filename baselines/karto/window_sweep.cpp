@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little);
 // The lanes beyond the window read past the last row.
 static_assert(CorrelationGrid::kMargin >= kBytesPerBlock);
 
-// A vector of GCC and Clang: an array would travel through memory, four times slower.
+// A vector of GCC and Clang: an array would travel through memory, several times slower.
 using Lanes [[gnu::vector_size(kBytesPerBlock)]] = std::uint16_t;
 
 class Sweep {
