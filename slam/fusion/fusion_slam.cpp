@@ -17,6 +17,9 @@
 namespace corridor::fusion {
 namespace {
 
+// A prediction that contradicts this many scans in a row is itself the wrong one.
+constexpr int kMaxRefusedInARow = 3;
+
 // Where a scan lies on the key scan before it.
 struct ScanRecord {
   Timestamp stamp;
@@ -98,10 +101,16 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     }
     records_.push_back({scan.stamp, last_key(), estimate().pose(last_key()).between(T_map_base_)});
     last_scan_stamp_ = scan.stamp;
+    if (!is_solved()) report.status = StepStatus::kLost;
     report.T_map_base = T_map_base_;
     report.is_slip_detected = verdict_.is_slip;
     report.is_degenerate = verdict_.is_degenerate;
     return report;
+  }
+
+  bool is_solved() const {
+    return last_report_.status == backend::SolveStatus::kConverged ||
+           last_report_.status == backend::SolveStatus::kMaxIterations;
   }
 
   Prediction predict(Timestamp stamp) {
@@ -120,6 +129,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   void start(const LaserScan& scan, std::vector<Eigen::Vector2d> points) {
     has_imu_ = predictor_.has_imu();
+    if (!has_imu_) predictor_.ignore_imu();
     graph::Values values;
     values.set_pose(0, Pose2());
     values.set_wheel_scale(0, 0);
@@ -141,12 +151,15 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     Submap& submap = local_map_.active();
     const Pose2& T_map_submap = estimate().pose(submap.origin_key());
     const TrackedScan tracked =
-        track_scan(submap, points, T_map_submap.between(T_map_base_), prediction, robot_, params_);
+        track_scan(submap, points, T_map_submap.between(T_map_base_), prediction, robot_, params_,
+                   num_refused_in_a_row_ < kMaxRefusedInARow);
+    num_refused_in_a_row_ = tracked.is_refused ? num_refused_in_a_row_ + 1 : 0;
     const Pose2 before = T_map_base_;
     T_map_base_ = T_map_submap * tracked.T_submap_base;
     path_m_ += (T_map_base_.translation_m() - before.translation_m()).norm();
     if (tracked.chi2 && tracked.degrees_of_freedom > 0) {
-      is_wheel_jump_ = is_wheel_jump_ || *tracked.chi2 > params_.slip_gate;
+      is_wheel_jump_ =
+          is_wheel_jump_ || (tracked.degrees_of_freedom == 3 && *tracked.chi2 > params_.slip_gate);
       if (params_.use_directional_degeneracy) {
         wheel_noise_.observe(*tracked.chi2 / tracked.degrees_of_freedom);
       }
@@ -171,7 +184,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     if (before.wheel_T_odom_base && wheels) {
       interval.wheel_T_i_j = before.wheel_T_odom_base->between(*wheels);
     }
-    interval.turn_i_j_rad = estimate().pose(interval.i).between(T_map_base_).theta_rad();
+    interval.tracked_T_i_j = estimate().pose(interval.i).between(T_map_base_);
     if (has_imu_) {
       interval.imu = predictor_.imu_interval();
       interval.velocity_base_i_mps =
@@ -180,8 +193,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     interval.match = tracked.match;
     interval.anchor = const_cast<LocalMap&>(local_map_).active().origin_key();
     interval.is_wheel_jump = is_wheel_jump_;
-    interval.range_difference_m = mean_range_difference_m(before.scan, scan, interval.turn_i_j_rad);
+    interval.range_difference_m =
+        mean_range_difference_m(before.scan, scan, interval.tracked_T_i_j.theta_rad());
     interval.wheel_scale = estimate().wheel_scale(0);
+    interval.velocity_sigma_mps =
+        is_velocity_known_ ? params_.velocity_sigma_mps : params_.initial_velocity_sigma_mps;
     interval.anchor_age_s = seconds_between(anchor_stamp_, scan.stamp);
     return interval;
   }
@@ -199,8 +215,12 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       const auto optimise = stage_clock().enter(Stage::kOptimise);
       last_report_ = back_end_->update(std::move(factors), values, {});
       num_relinearized_ += last_report_.num_relinearized;
+      num_failed_solves_ += is_solved() ? 0 : 1;
     }
-    if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
+    if (verdict_.are_wheels_used || !verdict_.is_degenerate) {
+      anchor_stamp_ = scan.stamp;
+      is_velocity_known_ = true;
+    }
     key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), path_m_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
@@ -250,8 +270,12 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     num_relinearized_ += added.num_relinearized + last_report_.num_relinearized;
     loop_ids_.insert(loop_ids_.end(), added.new_factor_ids.begin(), added.new_factor_ids.end());
     num_loops_ += static_cast<int>(added.new_factor_ids.size());
-    loop_closer_.on_accepted(path_m_);
     remove_bad_loops();
+    const auto& ids = added.new_factor_ids;
+    const bool is_any_left = std::any_of(ids.begin(), ids.end(), [&](graph::FactorId id) {
+      return back_end_->graph().contains(id);
+    });
+    if (is_any_left) loop_closer_.on_accepted(path_m_);
     T_map_base_ = estimate().pose(last_key());
   }
 
@@ -296,6 +320,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   }
 
   void fill_counters(std::map<std::string, double>& counters) const {
+    counters["imu_used"] = has_imu_ ? 1 : 0;
+    counters["failed_solves"] = num_failed_solves_;
     counters["key_scans"] = static_cast<double>(key_scans_.size());
     counters["submaps"] = static_cast<double>(local_map_.num_submaps());
     counters["loop_candidates"] = loop_closer_.num_candidates();
@@ -329,12 +355,14 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   Timestamp last_scan_stamp_;
   Timestamp anchor_stamp_;  // when wheels or LiDAR last fixed the motion
   bool is_wheel_jump_ = false;
+  bool is_velocity_known_ = false;  // wheels or LiDAR measured it at least once
+  int num_refused_in_a_row_ = 0;
   IntervalVerdict verdict_;
   std::vector<graph::FactorId> loop_ids_;
   std::set<std::uint32_t> closed_keys_;
   backend::BackEndReport last_report_;
   int num_loops_ = 0, num_removed_loops_ = 0, num_slips_ = 0, num_degenerate_ = 0;
-  int num_least_bad_ = 0;
+  int num_least_bad_ = 0, num_failed_solves_ = 0;
   std::int64_t num_relinearized_ = 0;
 };
 

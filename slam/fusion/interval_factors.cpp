@@ -16,6 +16,9 @@ using graph::FactorPtr;
 constexpr double kLeastBadFactor = 10;
 // The pose of key scan 0 defines the map frame.
 constexpr double kGaugeSigma = 1e-4;
+// Where neither wheels nor IMU nor the whole LiDAR measured an interval.
+constexpr double kTrackedSigma_m = 0.2;
+constexpr double kTrackedSigma_rad = 0.2;
 // A bias always walks a little, so that the factor stays defined for ideal sensors.
 constexpr double kMinBiasWalk = 1e-7;
 
@@ -28,8 +31,8 @@ struct LidarChoice {
 LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
                               const FusionParams& params) {
   LidarChoice choice;
-  const bool has_moved = interval.wheel_T_i_j &&
-                         interval.wheel_T_i_j->translation_m().norm() > 0.5 * params.key_distance_m;
+  const bool has_moved = interval.wheel_T_i_j && interval.wheel_T_i_j->translation_m().norm() >=
+                                                     0.9 * params.degeneracy_travel_m;
   if (!interval.range_difference_m || !has_moved) return choice;
   const double threshold_m =
       params.degeneracy_floor_factor * range_difference_floor_m(robot.lidar.range_sigma_m);
@@ -51,11 +54,19 @@ FactorPtr scalar_lidar_factor(const Interval& interval, double sigma_factor,
   return lidar_factor(interval, Eigen::Vector3d(translation, translation, rotation).asDiagonal());
 }
 
+FactorPtr tracked_factor(const Interval& interval) {
+  const Eigen::Vector3d weight(1 / kTrackedSigma_m, 1 / kTrackedSigma_m, 1 / kTrackedSigma_rad);
+  return std::make_unique<graph::RelativePose>(graph::pose_key(interval.i),
+                                               graph::pose_key(interval.j), interval.tracked_T_i_j,
+                                               weight.asDiagonal().toDenseMatrix());
+}
+
 FactorPtr wheel_factor(const Interval& interval, const WheelNoise& noise, double sigma_factor) {
   Eigen::Vector3d weight(1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.rotation_sigma_rad * sigma_factor));
-  if (interval.imu) weight(2) = 0;  // the gyro knows the turn better than unequal wheels
+  if (interval.imu && interval.imu->unmeasured_s == 0)
+    weight(2) = 0;  // the gyro knows the turn better than unequal wheels
   return std::make_unique<graph::WheelMotion>(
       graph::pose_key(interval.i), graph::pose_key(interval.j), graph::wheel_scale_key(0),
       *interval.wheel_T_i_j, weight.asDiagonal());
@@ -74,8 +85,8 @@ SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotM
   const Pose2& raw = *interval.wheel_T_i_j;
   const double scale = 1 + interval.wheel_scale;
   return test_slip(Pose2(scale * raw.x_m(), scale * raw.y_m(), raw.theta_rad()), noise,
-                   *interval.imu, interval.velocity_base_i_mps, interval.anchor_age_s, robot.imu,
-                   params);
+                   *interval.imu, interval.velocity_base_i_mps, interval.velocity_sigma_mps,
+                   interval.anchor_age_s, robot.imu, params);
 }
 
 // The published method: each sensor in or out as a whole.
@@ -149,9 +160,16 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
                                ? nominal_wheel_noise(*interval.wheel_T_i_j, robot.wheels, params)
                                : WheelNoise{};
   const SlipTest slip = slip_of(interval, noise, robot, params);
-  return params.use_directional_degeneracy
-             ? add_directional_factors(interval, noise, slip, wheel_noise_factor, factors)
-             : add_scalar_factors(interval, noise, slip, robot, params, factors);
+  const IntervalVerdict verdict =
+      params.use_directional_degeneracy
+          ? add_directional_factors(interval, noise, slip, wheel_noise_factor, factors)
+          : add_scalar_factors(interval, noise, slip, robot, params, factors);
+  // Nothing else ties the new state: hold it loosely where it was tracked.
+  const bool is_lidar_whole = verdict.is_lidar_used && !verdict.is_degenerate;
+  if (!interval.imu && !verdict.are_wheels_used && !is_lidar_whole) {
+    factors.push_back(tracked_factor(interval));
+  }
+  return verdict;
 }
 
 void add_first_factors(bool has_imu, const FusionParams& params, std::vector<FactorPtr>& factors) {

@@ -24,8 +24,9 @@ struct Interval {
   std::uint32_t anchor = 0;
   bool is_wheel_jump = false;  // the LiDAR, seeing every direction, contradicts the wheels
   std::optional<double> range_difference_m;  // of scans i and j, the paper's measure
-  double turn_i_j_rad = 0;
+  Pose2 tracked_T_i_j;                       // by prediction and match together
   Eigen::Vector2d velocity_base_i_mps = Eigen::Vector2d::Zero();
+  double velocity_sigma_mps = 0;
   double wheel_scale = 0;
   double anchor_age_s = 0;
 };

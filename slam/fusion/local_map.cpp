@@ -16,7 +16,8 @@ void LocalMap::insert(std::uint32_t key, const graph::Values& estimate,
   }
   while (active_ + 1 < submaps_.size() && submaps_[active_]->num_scans() >= full) {
     ++active_;
-    if (!params_.use_submaps) submaps_[active_ - 1].reset();  // never looked at again
+    // Without loop closing nobody looks at it again.
+    if (!params_.use_loop_closing) submaps_[active_ - 1].reset();
   }
 }
 

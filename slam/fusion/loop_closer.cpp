@@ -29,6 +29,7 @@ Submap* LoopCloser::nearest_candidate(std::span<const KeyScan> key_scans, LocalM
   Submap* nearest = nullptr;
   double nearest_m = radius_m;
   for (const auto& submap : local_map.finished()) {
+    if (submap == nullptr) continue;
     if (now.path_m - key_scans[submap->last_key()].path_m < params_.loop_min_path_m) continue;
     const Pose2& T_map_submap = estimate.pose(submap->origin_key());
     for (const Pose2& T_submap_base : submap->scan_poses()) {

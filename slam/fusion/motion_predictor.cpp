@@ -9,6 +9,8 @@ namespace {
 constexpr double kUnknownTranslation_m = 0.2;
 constexpr double kUnknownRotation_rad = 0.2;
 // Error of the gyro's rotation between two scans beside its noise: bias and scale.
+// A reading stands for no longer than this; beyond it the motion went unmeasured.
+constexpr double kMaxHold_s = 0.3;
 constexpr double kGyroFloor_rad = 5e-4;
 constexpr double kGyroScaleRatio = 0.01;
 
@@ -21,10 +23,12 @@ void MotionPredictor::integrate_until(Timestamp stamp) {
   if (!last_imu_) return;
   const double duration_s = integrated_until_ ? seconds_between(*integrated_until_, stamp) : 0;
   if (duration_s > 0) imu_.integrate(*last_imu_, duration_s);
+  if (duration_s > kMaxHold_s) imu_.add_unmeasured_time(duration_s);
   if (!integrated_until_ || duration_s > 0) integrated_until_ = stamp;
 }
 
 void MotionPredictor::add(const ImuSample& sample) {
+  if (is_imu_ignored_) return;
   // A reading stands for the time since the one before it.
   last_imu_ = sample;
   integrate_until(sample.stamp);
@@ -44,11 +48,13 @@ Prediction MotionPredictor::predict(Timestamp stamp, double wheel_scale, double 
     noise.rotation_sigma_rad *= noise_factor;
   }
   double turn_rad = wheel_motion.theta_rad();
-  if (has_imu()) {
+  const bool is_gyro_whole = imu_.delta().unmeasured_s == 0;
+  if (has_imu() && (is_gyro_whole || !prediction.has_wheels)) {
     turn_rad = imu_.delta().theta_rad - last_imu_theta_rad_;
-    last_imu_theta_rad_ = imu_.delta().theta_rad;
-    noise.rotation_sigma_rad = kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad);
+    noise.rotation_sigma_rad = kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad) +
+                               (is_gyro_whole ? 0 : kUnknownRotation_rad);
   }
+  last_imu_theta_rad_ = imu_.delta().theta_rad;
   last_wheel_T_odom_base_ = wheel_pose;
   prediction.T_last_now = Pose2((1 + wheel_scale) * wheel_motion.x_m(),
                                 (1 + wheel_scale) * wheel_motion.y_m(), turn_rad);

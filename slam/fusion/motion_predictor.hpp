@@ -29,6 +29,8 @@ class MotionPredictor {
   void add(const WheelSample& sample) { wheels_.add(sample); }
   void add(const ImuSample& sample);
 
+  // For a log whose IMU starts too late to be a state from the beginning.
+  void ignore_imu() { is_imu_ignored_ = true; }
   [[nodiscard]] bool has_imu() const { return last_imu_.has_value(); }
   [[nodiscard]] std::optional<Pose2> wheel_pose_at(Timestamp stamp) const {
     return wheels_.pose_at(stamp);
@@ -52,6 +54,7 @@ class MotionPredictor {
   std::optional<Timestamp> integrated_until_;
   std::optional<Pose2> last_wheel_T_odom_base_;
   double last_imu_theta_rad_ = 0;
+  bool is_imu_ignored_ = false;
 };
 
 }  // namespace corridor::fusion

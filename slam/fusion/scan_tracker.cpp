@@ -49,7 +49,7 @@ Fused fuse(const Pose2& T_predicted, const matching::ObservableMatch& match,
 
 TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_base_m,
                        const Pose2& T_submap_last, const Prediction& prediction,
-                       const RobotModel& robot, const FusionParams& params) {
+                       const RobotModel& robot, const FusionParams& params, bool may_refuse) {
   const Pose2 T_predicted = T_submap_last * prediction.T_last_now;
   TrackedScan tracked;
   tracked.T_submap_base = T_predicted;
@@ -69,18 +69,19 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
     tracked.chi2 = fused.chi2;
     tracked.degrees_of_freedom = tracked.match->num_observable;
   }
-  const bool is_jump = fused.chi2 > params.slip_gate;
-  if (is_jump && match.inlier_ratio < params.jump_inlier_ratio) {
-    // Either the scan is spoilt (somebody stands before it) or the wheels jumped: the next scan
-    // tells.
-    return TrackedScan{T_predicted, std::nullopt, std::nullopt, 0};
+  const bool is_jump = params.use_statistical_slip_test && fused.chi2 > params.slip_gate;
+  if (is_jump && may_refuse && match.inlier_ratio < params.jump_inlier_ratio) {
+    // Either the scan is spoilt (somebody stands before it) or the wheels jumped: the next tells.
+    TrackedScan refused;
+    refused.T_submap_base = T_predicted;
+    refused.is_refused = true;
+    return refused;
   }
   // Wheels that jumped do not hold the scan back.
   if (is_jump) {
     fused = fuse(T_predicted, *tracked.match, covariance * fused.chi2);
   }
   tracked.T_submap_base = fused.T_submap_base;
-  if (!params.use_directional_degeneracy) tracked.match->T_map_base = fused.T_submap_base;
   return tracked;
 }
 

@@ -21,13 +21,15 @@ struct TrackedScan {
   // number; only where the prediction came from wheels.
   std::optional<double> chi2;
   int degrees_of_freedom = 0;
+  bool is_refused = false;  // it contradicted the prediction and explained too little of the scan
 };
 
-// T_submap_last: pose at the last scan. The match starts from the prediction but is held by it only
-// loosely, so that wheels which jump do not hold the scan back; what the scan does not see stays
-// predicted.
+// may_refuse: false takes a match even if it contradicts the prediction, so that a wrong prediction
+// cannot refuse the truth for ever. T_submap_last: pose at the last scan. The match starts from the
+// prediction but is held by it only loosely, so that wheels which jump do not hold the scan back;
+// what the scan does not see stays predicted.
 TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_base_m,
                        const Pose2& T_submap_last, const Prediction& prediction,
-                       const RobotModel& robot, const FusionParams& params);
+                       const RobotModel& robot, const FusionParams& params, bool may_refuse);
 
 }  // namespace corridor::fusion

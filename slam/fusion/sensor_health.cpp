@@ -73,7 +73,8 @@ double range_difference_floor_m(double range_sigma_m) {
 
 SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
                    const motion::ImuDelta& imu, const Eigen::Vector2d& velocity_base_mps,
-                   double anchor_age_s, const ImuModel& imu_model, const FusionParams& params) {
+                   double velocity_sigma_mps, double anchor_age_s, const ImuModel& imu_model,
+                   const FusionParams& params) {
   const double dt = imu.duration_s;
   const Eigen::Vector2d difference =
       velocity_base_mps * dt + imu.position_m - scaled_wheel_T_i_j.translation_m();
@@ -86,7 +87,7 @@ SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
   // Since the last anchor the velocity has walked with the accelerometer's noise and bias error.
   const double walk_mps2_sqrt_s = imu_model.accel_noise_mps2 / std::sqrt(imu_model.rate_hz);
   const double bias_error_mps2 = 0.1 * params.accel_bias_sigma_mps2;
-  const double velocity_variance = square(params.velocity_sigma_mps) +
+  const double velocity_variance = square(velocity_sigma_mps) +
                                    square(walk_mps2_sqrt_s) * anchor_age_s +
                                    square(bias_error_mps2 * anchor_age_s);
   const double variance = square(noise.translation_sigma_m) + velocity_variance * dt * dt;

@@ -43,11 +43,13 @@ struct SlipTest {
   bool is_slip = false;
 };
 
-// Wheels against the IMU over one key interval. velocity_base: estimated velocity at its begin in
-// the base frame; anchor_age_s: time since wheels or LiDAR last fixed it along the motion.
+// Wheels against the IMU over one key interval. velocity_base: estimated velocity at its begin,
+// with its standard deviation, in the base frame; anchor_age_s: time since wheels or LiDAR last
+// fixed it along the motion.
 SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
                    const motion::ImuDelta& imu, const Eigen::Vector2d& velocity_base_mps,
-                   double anchor_age_s, const ImuModel& imu_model, const FusionParams& params);
+                   double velocity_sigma_mps, double anchor_age_s, const ImuModel& imu_model,
+                   const FusionParams& params);
 
 // Follows how far the wheels are from what the LiDAR measures and scales their noise accordingly.
 class WheelNoiseAdapter {

@@ -26,9 +26,9 @@ struct ObservabilityParams {
     v(ParamInfo{"min_spurious_factor", "1",
                 "a direction must show this many times what noise in the normals shows", 0, 1000},
       p.min_spurious_factor);
-    v(ParamInfo{"translation_floor_m", "m", "systematic error of a match", 0, 1},
+    v(ParamInfo{"translation_floor_m", "m", "systematic error of a match", 1e-6, 1},
       p.translation_floor_m);
-    v(ParamInfo{"rotation_floor_rad", "rad", "systematic error of a match", 0, 1},
+    v(ParamInfo{"rotation_floor_rad", "rad", "systematic error of a match", 1e-6, 1},
       p.rotation_floor_rad);
   }
 };

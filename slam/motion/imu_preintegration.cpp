@@ -13,6 +13,10 @@ Eigen::Matrix2d rotation(double theta_rad) {
   return (Eigen::Matrix2d() << c, -s, s, c).finished();
 }
 
+// How a robot may have moved while nothing measured it, standard deviations.
+constexpr double kUnmeasuredRate_radps = 1.0;
+constexpr double kUnmeasuredAcceleration_mps2 = 1.0;
+
 // d R(theta) v / d theta = kTurn * R(theta) v.
 const Eigen::Matrix2d kTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
 
@@ -38,6 +42,17 @@ void ImuPreintegrator::reset(const Eigen::Vector3d& bias) {
   delta_.bias = bias;
 }
 
+void ImuPreintegrator::add_unmeasured_time(double duration_s) {
+  const double rotation = kUnmeasuredRate_radps * duration_s;
+  const double velocity = kUnmeasuredAcceleration_mps2 * duration_s;
+  const double position = 0.5 * velocity * duration_s;
+  delta_.covariance.diagonal() +=
+      Eigen::Matrix<double, 5, 1>(
+          Eigen::Matrix<double, 5, 1>{rotation, velocity, velocity, position, position})
+          .cwiseAbs2();
+  delta_.unmeasured_s += duration_s;
+}
+
 void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
   CORRIDOR_EXPECT(duration_s > 0);
   ImuDelta& d = delta_;
@@ -59,6 +74,10 @@ void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
   F.block<2, 2>(3, 1) = Eigen::Matrix2d::Identity() * dt;
   Eigen::Matrix<double, 5, 3> G = Eigen::Matrix<double, 5, 3>::Zero();
   G(0, 0) = dt;
+  // The lever arm's centripetal part depends on the rate.
+  const Eigen::Vector2d a_by_rate = 2 * rate * (R * model_.T_base_imu.translation_m());
+  G.block<2, 1>(1, 0) = a_by_rate * dt;
+  G.block<2, 1>(3, 0) = 0.5 * a_by_rate * dt * dt;
   G.block<2, 2>(1, 1) = R * R_base_imu * dt;
   G.block<2, 2>(3, 1) = 0.5 * R * R_base_imu * dt * dt;
   const Eigen::Vector3d variance(model_.gyro_noise_radps * model_.gyro_noise_radps,
@@ -70,6 +89,7 @@ void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
   theta_mid_by_bias(0) -= 0.5 * dt;
   Eigen::Matrix<double, 2, 3> a_by_bias = turned * theta_mid_by_bias;
   a_by_bias.rightCols<2>() -= R * R_base_imu;
+  a_by_bias.col(0) -= a_by_rate;
   d.position_by_bias += d.velocity_by_bias * dt + 0.5 * a_by_bias * dt * dt;
   d.velocity_by_bias += a_by_bias * dt;
   d.theta_by_bias(0) -= dt;

@@ -14,6 +14,7 @@ namespace corridor::motion {
 // velocity. Bias order: (gyro z [rad/s], accelerometer x, y [m/s^2]).
 struct ImuDelta {
   double duration_s = 0;
+  double unmeasured_s = 0;  // part of it in which readings were missing
   double theta_rad = 0;
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
@@ -36,6 +37,9 @@ class ImuPreintegrator {
   // Holds one reading for `duration_s` > 0. Rate and force turn into the base frame; the
   // centripetal part of the lever arm is taken out, its Euler part (angular acceleration) is not.
   void integrate(const ImuSample& sample, double duration_s);
+  // Tells that the last `duration_s` of what was integrated held no reading: widens the covariance
+  // by the motion that may have gone unseen.
+  void add_unmeasured_time(double duration_s);
   void reset(const Eigen::Vector3d& bias);
   [[nodiscard]] const ImuDelta& delta() const { return delta_; }
 

@@ -10,6 +10,10 @@ namespace {
 // d R(-theta) v / d theta = -kTurn * R(-theta) v.
 const Eigen::Matrix2d kTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
 
+// Order (rad, m/s, m/s, m, m).
+const Eigen::Matrix<double, 5, 1> kImuFloor =
+    (Eigen::Matrix<double, 5, 1>() << 1e-5, 1e-4, 1e-4, 1e-5, 1e-5).finished();
+
 Eigen::VectorXd vector_value(const Values& values, Key key) {
   switch (key.kind) {
     case VariableKind::kVelocity:
@@ -23,7 +27,10 @@ Eigen::VectorXd vector_value(const Values& values, Key key) {
 
 // U with U^T U = covariance^-1.
 Eigen::Matrix<double, 5, 5> whitener(const Eigen::Matrix<double, 5, 5>& covariance) {
-  const Eigen::LLT<Eigen::Matrix<double, 5, 5>> llt(covariance);
+  // Ideal sensors and a single reading leave directions without noise: no measurement is that good.
+  Eigen::Matrix<double, 5, 5> floored = covariance;
+  floored.diagonal() += kImuFloor.cwiseAbs2();
+  const Eigen::LLT<Eigen::Matrix<double, 5, 5>> llt(floored);
   CORRIDOR_EXPECT(llt.info() == Eigen::Success);
   return llt.matrixL().solve(Eigen::Matrix<double, 5, 5>::Identity());
 }

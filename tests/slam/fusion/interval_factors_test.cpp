@@ -27,6 +27,8 @@ Interval healthy() {
   interval.match = match;
   interval.range_difference_m = 0.2;
   interval.anchor_age_s = 0.4;
+  interval.velocity_sigma_mps = 0.02;
+  interval.tracked_T_i_j = Pose2(0.2, 0, 0);
   return interval;
 }
 
@@ -133,6 +135,34 @@ TEST(Fusion, WithoutImuAndLidarTheWheelsStay) {
   const Chosen chosen = choose(interval, {});
   EXPECT_EQ(chosen.count("wheel_motion"), 1);
   EXPECT_TRUE(chosen.verdict.is_least_bad_kept);
+}
+
+TEST(Fusion, AStateThatNothingMeasuredIsHeldWhereItWasTracked) {
+  Interval interval = healthy();
+  interval.imu.reset();
+  interval.wheel_T_i_j.reset();
+  interval.match->num_observable = 2;
+  interval.match->information = Eigen::Vector3d(0, 1e4, 1e4).asDiagonal();
+  EXPECT_EQ(choose(interval, {}).count("relative_pose"), 2);
+  interval.match.reset();
+  EXPECT_EQ(choose(interval, {}).count("relative_pose"), 1);
+}
+
+TEST(Fusion, AfterAGapOfTheImuTheWheelsHeadingCounts) {
+  Interval interval = healthy();
+  interval.imu->unmeasured_s = 1;
+  interval.imu->covariance += Eigen::Matrix<double, 5, 5>::Identity();
+  graph::Values values;
+  values.set_pose(0, {});
+  values.set_pose(1, {0.2, 0, 0.5});
+  values.set_wheel_scale(0, 0);
+  const Chosen chosen = choose(interval, {});
+  for (const graph::FactorPtr& factor : chosen.factors) {
+    if (factor->type() == "wheel_motion") {
+      EXPECT_GT(factor->chi2(values), 10);
+    }
+  }
+  EXPECT_EQ(chosen.count("wheel_motion"), 1);
 }
 
 TEST(BiasWalkSigma, GrowsWithTheRootOfTime) {

@@ -16,7 +16,8 @@ motion::ImuDelta imu_at_constant_velocity(double duration_s) {
 
 SlipTest slip_for(const Pose2& wheels, const FusionParams& params) {
   return test_slip(wheels, nominal_wheel_noise(wheels, WheelModel{}, params),
-                   imu_at_constant_velocity(0.4), {0.5, 0}, 0.4, ImuModel{}, params);
+                   imu_at_constant_velocity(0.4), {0.5, 0}, params.velocity_sigma_mps, 0.4,
+                   ImuModel{}, params);
 }
 
 TEST(RangeDifference, OfTheSameViewIsItsNoiseFloor) {
@@ -80,7 +81,8 @@ TEST(SlipTest, IsLessSureTheLongerNothingAnchoredTheVelocity) {
   const WheelNoise noise = nominal_wheel_noise(wheels, WheelModel{}, params);
   const motion::ImuDelta imu = imu_at_constant_velocity(0.4);
   const auto measure = [&](double age_s) {
-    return test_slip(wheels, noise, imu, {0.5, 0}, age_s, ImuModel{}, params)
+    return test_slip(wheels, noise, imu, {0.5, 0}, params.velocity_sigma_mps, age_s, ImuModel{},
+                     params)
         .measure_over_threshold;
   };
   EXPECT_GT(measure(0.4), measure(5));

@@ -161,6 +161,16 @@ TEST(WheelMotion, ScaleStretchesTheWheelsPath) {
   EXPECT_NEAR(factor.chi2(values), 0, 1e-24);
 }
 
+TEST(ImuMotion, OneReadingOfAnIdealSensorIsAValidMeasurement) {
+  ImuModel ideal;
+  ideal.gyro_noise_radps = ideal.accel_noise_mps2 = 0;
+  motion::ImuPreintegrator integrator(ideal, Eigen::Vector3d::Zero());
+  integrator.integrate({{}, 0.1, 0.2, 0.3}, 0.1);
+  const ImuMotion factor(0, 1, integrator.delta());
+  Rng rng(1);
+  EXPECT_TRUE(std::isfinite(factor.chi2(random_values(rng))));
+}
+
 TEST(FactorGraph, RemovedFactorsCountNoMoreAndNumbersAreNotReused) {
   FactorGraph graph;
   const auto prior = [] {

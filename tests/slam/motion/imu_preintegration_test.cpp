@@ -75,11 +75,13 @@ RC_GTEST_PROP(ImuPreintegrator, BiasCorrectionIsRightToFirstOrder, (std::uint64_
   Rng rng(seed);
   const std::vector<ImuSample> samples = random_samples(rng, 100);
   const Eigen::Vector3d bias(0.01, -0.02, 0.03);
-  const ImuDelta delta = integrate(samples, bias);
+  ImuModel model;
+  model.T_base_imu = Pose2(0.3, -0.1, 0.4);  // a lever arm makes the force depend on the rate
+  const ImuDelta delta = integrate(samples, bias, model);
   constexpr double kStep = 1e-5;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d moved = bias + kStep * Eigen::Vector3d::Unit(i);
-    const ImuDelta exact = integrate(samples, moved);
+    const ImuDelta exact = integrate(samples, moved, model);
     const ImuDelta corrected = delta.corrected(moved);
     // What is left is of second order: (1e-5)^2 times a factor near 1, against a change near 1e-5.
     RC_ASSERT(std::abs(corrected.theta_rad - exact.theta_rad) < 1e-9);
