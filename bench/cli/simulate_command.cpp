@@ -6,12 +6,13 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
-#include <system_error>
+#include <string_view>
+#include <vector>
 
+#include "bench/cli/staged_files.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/tum.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "datasets/simulation/simulate.hpp"
 
@@ -20,21 +21,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<fs::path> files_of(const fs::path& log) {
+  return {log, formats::sidecar_of(log, ".tum"), formats::sidecar_of(log, ".truth.toml")};
+}
+
 // LOG, LOG.tum and LOG.truth.toml; none of them if one cannot be written.
 Result<void> write_all(const simulation::Simulated& simulated, const fs::path& log) {
-  const fs::path truth = formats::sidecar_of(log, ".tum");
-  const fs::path world = formats::sidecar_of(log, ".truth.toml");
-  Result<void> done = formats::write_log(simulated.log, log);
-  if (done && simulated.log.truth) done = formats::write_tum(*simulated.log.truth, truth);
+  Result<StagedFiles> staged = StagedFiles::beside(log);
+  if (!staged) return tl::make_unexpected(staged.error());
+  const fs::path hidden = staged->path_for(log);
+  Result<void> done = formats::write_log(simulated.log, hidden);
   if (done) {
     const std::string text = simulation::truth_toml(simulated);
-    done = formats::write_file_atomically(world, std::string_view(text));
+    done = formats::write_file_atomically(formats::sidecar_of(hidden, ".truth.toml"),
+                                          std::string_view(text));
   }
-  if (!done) {
-    std::error_code ignored;
-    for (const fs::path& path : {log, truth, world}) fs::remove(path, ignored);
-  }
-  return done;
+  if (!done) return tl::make_unexpected(staged->with_final_name(done.error()));
+  return staged->commit();
 }
 
 }  // namespace
@@ -57,8 +60,8 @@ Result<ExitCode> SimulateCommand::run() const {
     return fail(ErrorCode::kUnsupported, "the suffix names no log format", out,
                 ".rawlog, .clf or .clf.gz");
   }
-  if (const Result<void> folder = check_parent_folder(out); !folder) {
-    return tl::make_unexpected(folder.error());
+  if (const Result<void> good = check_targets(files_of(out)); !good) {
+    return tl::make_unexpected(good.error());
   }
   const Result<fs::path> path = simulation::find_scenario(scenario);
   if (!path) return tl::make_unexpected(path.error());
