@@ -62,18 +62,18 @@ class KartoSlam::Impl {
 
   Result<SlamEstimate> finish() {
     const auto in_stage = clock_.enter(Stage::kFinish);
-    SlamEstimate estimate;
+    Result<SlamEstimate> estimate;
     if (records_.empty()) return estimate;
     if (!T_map_start_) {
       return fail(ErrorCode::kInvalid, "no wheel odometry near any scan", "sensor log",
                   "wheel samples");
     }
     if (mapper_) mapper_->publish_poses();
-    estimate.trajectory = final_trajectory();
-    estimate.map = mapper_ ? build_karto_map(mapper_->scans(), T_map_start_->inverse(),
-                                             range_threshold_m_, params_)
-                           : GridMap{};
-    estimate.counters = counters();
+    estimate->trajectory = final_trajectory();
+    estimate->map = mapper_ ? build_karto_map(mapper_->scans(), T_map_start_->inverse(),
+                                              range_threshold_m_, params_)
+                            : GridMap{};
+    estimate->counters = counters();
     return estimate;
   }
 
