@@ -186,6 +186,12 @@ Result<ExitCode> EvaluateCommand::run() const {
                 estimate, "stamps of the same clock and unit as those of " + truth);
   }
 
+  if (!inputs->relations.empty() && result.final_relations.relations_used.value_or(0) == 0) {
+    return fail(ErrorCode::kInvalid, "no relation could be matched", estimate,
+                "poses within " +
+                    fmt::format("{} s of both times of a relation in {}", max_dt_s, relations));
+  }
+
   Json scores = scores_json(result);
   if (is_json) {
     scores["remarks"] = remarks;
