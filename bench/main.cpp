@@ -84,14 +84,44 @@ std::vector<std::pair<const CLI::App*, Action>> declare(CLI::App& app, Commands&
   return actions;
 }
 
+// "list, run or report".
+std::string alternatives(const CLI::App& parent) {
+  const auto commands = parent.get_subcommands([](const CLI::App*) { return true; });
+  std::string text;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (i > 0) text += i + 1 == commands.size() ? " or " : ", ";
+    text += commands[i]->get_name();
+  }
+  return text;
+}
+
+// The words of the request as far as they are commands, and the first that is none; nothing if
+// every word that should be a command is one.
+std::string unknown_command(const CLI::App& app, int argc, char** argv, const CLI::App*& parent) {
+  parent = &app;
+  std::string words;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.empty() || word.front() == '-') return "";
+    words += (words.empty() ? "" : " ") + word;
+    const auto named = parent->get_subcommands(
+        [&word](const CLI::App* command) { return command->get_name() == word; });
+    if (named.empty()) return words;
+    parent = named.front();
+    if (parent->get_require_subcommand_min() == 0) return "";
+  }
+  return "";
+}
+
 // Help and version are answers on stdout, everything else is a wrong request.
-int answer_parse_error(const CLI::App& app, const CLI::ParseError& error, const char* first_word) {
+int answer_parse_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) return app.exit(error);
-  const bool is_word = first_word != nullptr && *first_word != '\0' && *first_word != '-';
-  if (is_word && app.get_subcommands().empty()) {
-    print_error(std::string("unknown command \"") + first_word + "\"; see --help");
-  } else {
+  const CLI::App* parent = nullptr;
+  const std::string unknown = unknown_command(app, argc, argv, parent);
+  if (unknown.empty()) {
     print_error(std::string(error.what()) + "; see --help");
+  } else {
+    print_error("unknown command \"" + unknown + "\"; expected " + alternatives(*parent));
   }
   return corridor::runner::kExitBadRequest;
 }
@@ -106,7 +136,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return answer_parse_error(app, error, argc > 1 ? argv[1] : nullptr);
+    return answer_parse_error(app, error, argc, argv);
   }
   for (const auto& [command, action] : actions) {
     if (!command->parsed()) continue;
