@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <system_error>
 
@@ -32,6 +33,14 @@ Result<void> check_parent_folder(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(folder, ignored)) return {};
   return fail(ErrorCode::kNotFound, "the folder does not exist", folder.string(),
               "an existing folder for " + file.filename().string());
+}
+
+Result<std::uint64_t> seed_from_text(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc() && parsed_to == end) return seed;
+  return fail(ErrorCode::kInvalid, text, "--seed", "a whole number from 0 to 18446744073709551615");
 }
 
 std::string text_table(const std::vector<std::vector<std::string>>& rows) {

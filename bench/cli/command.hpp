@@ -2,6 +2,7 @@
 // options, run() does the work when it was given.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -39,6 +40,9 @@ using ExitCode = int;
 
 // Fails with a clear Error if the folder of a file to be written does not exist.
 Result<void> check_parent_folder(const std::filesystem::path& file);
+
+// A seed, all digits of which are used; the Error says the range.
+Result<std::uint64_t> seed_from_text(const std::string& text);
 
 // Columns padded with blanks, as wide as needed; the first row is the head.
 std::string text_table(const std::vector<std::vector<std::string>>& rows);

@@ -8,7 +8,9 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -70,7 +72,7 @@ void RunCommand::add_to(CLI::App& command) {
       ->check(CLI::Range(1, 1024));
   command.add_option("--seeds", num_seeds, "Number of seeds instead of the suite's")
       ->check(CLI::Range(1, 100000));
-  command.add_option("--seed", first_seed, "First seed instead of the suite's");
+  command.add_option("--seed", first_seed, "First seed instead of the suite's")->type_name("N");
   command.add_option("--system", systems, "System, S or S@PROFILE, instead of the suite's; repeat")
       ->type_name("S[@PROFILE]");
   command.add_option("--backend", backends, "Back-end instead of the systems' own; repeat");
@@ -83,6 +85,22 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_flag("--no-report", has_no_report, "Leave out tables, figures and page");
   command.add_option("--executor", executor, "local: processes on this machine");
   common.add_to(command);
+}
+
+Result<void> RunCommand::apply_seeds(runner::Suite& requested) const {
+  if (num_seeds) requested.num_seeds = *num_seeds;
+  if (first_seed) {
+    const Result<std::uint64_t> seed = seed_from_text(*first_seed);
+    if (!seed) return tl::make_unexpected(seed.error());
+    requested.first_seed = *seed;
+  }
+  const auto num_more = static_cast<std::uint64_t>(requested.num_seeds - 1);
+  const std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+  if (requested.first_seed <= last - num_more) return {};
+  return fail(ErrorCode::kInvalid,
+              fmt::format("{} seeds from {} on are more than there are", requested.num_seeds,
+                          requested.first_seed),
+              "--seed", fmt::format("a last seed of at most {}", last));
 }
 
 Result<runner::Suite> RunCommand::requested_suite() const {
@@ -110,8 +128,9 @@ Result<runner::Suite> RunCommand::requested_suite() const {
   }
   if (!backends.empty()) requested.backends = backends;
   if (!datasets.empty()) replace_data(datasets, requested);
-  if (num_seeds) requested.num_seeds = *num_seeds;
-  if (first_seed) requested.first_seed = *first_seed;
+  if (const Result<void> good = apply_seeds(requested); !good) {
+    return tl::make_unexpected(good.error());
+  }
   const Result<void> added = runner::add_overrides(requested, overrides);
   if (!added) return tl::make_unexpected(added.error());
   return requested;

@@ -1,7 +1,6 @@
 // corridor-bench run: a suite, or one's own systems on one's own logs.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +16,7 @@ struct RunCommand {
   std::string out;
   int num_jobs = 1;
   std::optional<int> num_seeds;
-  std::optional<std::uint64_t> first_seed;
+  std::optional<std::string> first_seed;
   std::vector<std::string> systems;
   std::vector<std::string> backends;
   std::vector<std::string> datasets;
@@ -30,6 +29,7 @@ struct RunCommand {
   [[nodiscard]] Result<ExitCode> run(const ReportWriter& write_report) const;
 
  private:
+  [[nodiscard]] Result<void> apply_seeds(runner::Suite& requested) const;
   [[nodiscard]] Result<runner::Suite> requested_suite() const;
 };
 

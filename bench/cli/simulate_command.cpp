@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -46,7 +47,8 @@ void SimulateCommand::add_to(CLI::App& command) {
   command.add_option("scenario", scenario, "Name of a scenario, or its .toml file")
       ->required()
       ->type_name("SCENARIO");
-  command.add_option("--seed", seed, "What is drawn: start, speed, errors, noise (default: 1)");
+  command.add_option("--seed", seed, "What is drawn: start, speed, errors, noise (default: 1)")
+      ->type_name("N");
   command
       .add_option("--out", out,
                   "The log, .rawlog or .clf.gz; its truth goes to LOG.tum and LOG.truth.toml")
@@ -56,6 +58,8 @@ void SimulateCommand::add_to(CLI::App& command) {
 }
 
 Result<ExitCode> SimulateCommand::run() const {
+  const Result<std::uint64_t> drawn_from = seed_from_text(seed);
+  if (!drawn_from) return tl::make_unexpected(drawn_from.error());
   if (!formats::format_from_suffix(out)) {
     return fail(ErrorCode::kUnsupported, "the suffix names no log format", out,
                 ".rawlog, .clf or .clf.gz");
@@ -67,14 +71,14 @@ Result<ExitCode> SimulateCommand::run() const {
   if (!path) return tl::make_unexpected(path.error());
   const Result<simulation::Scenario> read = simulation::read_scenario(*path);
   if (!read) return tl::make_unexpected(read.error());
-  const simulation::Simulated simulated = simulation::simulate(*read, seed);
+  const simulation::Simulated simulated = simulation::simulate(*read, *drawn_from);
   if (const Result<void> written = write_all(simulated, out); !written) {
     return tl::make_unexpected(written.error());
   }
-  common.say(
-      fmt::format("{}: {} seed {}, {} scans, {} wheel samples, {} inertial samples, {:.1f} s", out,
-                  read->name, seed, simulated.log.num_scans(), simulated.log.num_wheel_samples(),
-                  simulated.log.num_imu_samples(), simulated.log.duration_s()));
+  common.say(fmt::format(
+      "{}: {} seed {}, {} scans, {} wheel samples, {} inertial samples, {:.1f} s", out, read->name,
+      *drawn_from, simulated.log.num_scans(), simulated.log.num_wheel_samples(),
+      simulated.log.num_imu_samples(), simulated.log.duration_s()));
   return runner::kExitDone;
 }
 

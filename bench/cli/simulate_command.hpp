@@ -1,7 +1,6 @@
 // corridor-bench simulate SCENARIO --out LOG: a log with its truth beside it.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "bench/cli/command.hpp"
@@ -11,7 +10,7 @@ namespace corridor::cli {
 struct SimulateCommand {
   CommonOptions common;
   std::string scenario;
-  std::uint64_t seed = 1;
+  std::string seed = "1";
   std::string out;
 
   void add_to(CLI::App& command);

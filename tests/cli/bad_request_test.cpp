@@ -83,10 +83,24 @@ TEST(BadRequest, UnknownNames) {
 TEST(BadRequest, CommandLinesThatCannotBeRead) {
   const ScratchFolder folder;
   expect_refused(folder, "", {"--help"});
-  expect_refused(folder, "frobnicate", {"frobnicate"});
+  expect_refused(folder, "frobnicate", {"unknown command \"frobnicate\"", "simulate", "or data"});
+  expect_refused(folder, "data inspect x.clf",
+                 {"unknown command \"data inspect\"; expected list or verify"});
   expect_refused(folder, "run", {"SUITE"});
   expect_refused(folder, "run smoke --jobs none", {"--jobs"});
   expect_refused(folder, "run smoke --bogus", {"--bogus"});
+}
+
+TEST(BadRequest, SeedsThatAreNoSeeds) {
+  const ScratchFolder folder;
+  const std::string range = "expected a whole number from 0 to 18446744073709551615";
+  for (const std::string seed : {"-1", "99999999999999999999999", "18446744073709551616", "1x"}) {
+    const std::string line = "--seed: " + seed + "; " + range;
+    expect_refused(folder, "run smoke --out o --seed " + seed, {line});
+    expect_refused(folder, "simulate paper-corridor --out x.rawlog --seed " + seed, {line});
+  }
+  expect_refused(folder, "run smoke --out o --seeds 2 --seed 18446744073709551615",
+                 {"--seed: 2 seeds from 18446744073709551615"});
 }
 
 TEST(BadRequest, FilesThatCannotBeReadOrWritten) {
@@ -120,6 +134,9 @@ TEST(BadRequest, AnEvaluationWithNothingToCompare) {
   expect_refused(folder, "evaluate --estimate e.tum --truth no.tum", {"no.tum"});
   expect_refused(folder, "evaluate --estimate e.tum --truth bad.tum", {"bad.tum:2"});
   expect_refused(folder, "evaluate --estimate e.tum --truth far.tum", {"no pose could be matched"});
+  folder.write("far.relations", "1000 2000 1 0 0 0 0 0\n");
+  expect_refused(folder, "evaluate --estimate e.tum --relations far.relations",
+                 {"no relation could be matched", "far.relations"});
   expect_refused(folder, "evaluate --estimate e.tum --truth e.tum --map m.yaml", {"--world"});
 }
 
