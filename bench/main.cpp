@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iostream>
 #include <new>
 #include <string>
 #include <utility>
@@ -148,11 +149,19 @@ int run(int argc, char** argv) {
   return corridor::runner::kExitBadRequest;
 }
 
+// What was said must have arrived: a full disk behind stdout is an error.
+int check_output(int exit_code) {
+  const bool is_flushed = std::fflush(stdout) == 0 && std::cout.flush().good();
+  if (is_flushed && std::ferror(stdout) == 0) return exit_code;
+  print_error("stdout: the output cannot be written; expected a file or pipe with room");
+  return exit_code == 0 ? corridor::runner::kExitBadRequest : exit_code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return check_output(run(argc, argv));
   } catch (const std::bad_alloc&) {
     print_error("out of memory");
     return corridor::runner::kExitOutOfMemory;
