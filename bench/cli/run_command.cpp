@@ -8,9 +8,11 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -48,6 +50,36 @@ void replace_data(const std::vector<std::string>& datasets, runner::Suite& suite
   for (const std::string& dataset : datasets) {
     (is_scenario(dataset) ? suite.scenarios : suite.datasets).push_back(dataset);
   }
+}
+
+std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
+  std::vector<std::string> once;
+  for (const std::string& name : names) {
+    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+  }
+  return once;
+}
+
+// Every --set says something that no other one says, about a system that is run.
+Result<void> check_overrides(const runner::Suite& suite, const std::vector<std::string>& texts) {
+  std::set<std::string> keys;
+  for (const std::string& text : texts) {
+    const std::string key = text.substr(0, text.find('='));
+    if (!keys.insert(key).second) {
+      return fail(ErrorCode::kInvalid, fmt::format("{} is given twice", key), "--set",
+                  "each parameter once");
+    }
+    const std::string system = key.substr(0, key.find('.'));
+    const auto runs_it = [&](const runner::SystemChoice& choice) {
+      return choice.system == system;
+    };
+    if (std::any_of(suite.systems.begin(), suite.systems.end(), runs_it)) continue;
+    std::vector<std::string> run;
+    for (const runner::SystemChoice& choice : suite.systems) run.push_back(choice.system);
+    return fail(ErrorCode::kInvalid, fmt::format("system \"{}\" is not run", system), "--set",
+                fmt::format("one of: {}", fmt::join(without_repeats(run), ", ")));
+  }
+  return {};
 }
 
 // Says how it went; the exit code.
@@ -120,19 +152,23 @@ Result<runner::Suite> RunCommand::requested_suite() const {
   for (const std::string& text : systems) {
     const Result<runner::SystemChoice> choice = runner::parse_system_choice(text);
     if (!choice) return tl::make_unexpected(choice.error());
-    requested.systems.push_back(*choice);
+    auto& chosen = requested.systems;
+    if (std::find(chosen.begin(), chosen.end(), *choice) == chosen.end()) chosen.push_back(*choice);
   }
   for (const std::string& name : backends) {
     const Result<void> known = runner::check_back_end(name);
     if (!known) return tl::make_unexpected(known.error());
   }
-  if (!backends.empty()) requested.backends = backends;
-  if (!datasets.empty()) replace_data(datasets, requested);
+  if (!backends.empty()) requested.backends = without_repeats(backends);
+  if (!datasets.empty()) replace_data(without_repeats(datasets), requested);
   if (const Result<void> good = apply_seeds(requested); !good) {
     return tl::make_unexpected(good.error());
   }
   const Result<void> added = runner::add_overrides(requested, overrides);
   if (!added) return tl::make_unexpected(added.error());
+  if (const Result<void> clear = check_overrides(requested, overrides); !clear) {
+    return tl::make_unexpected(clear.error());
+  }
   return requested;
 }
 

@@ -74,6 +74,12 @@ TEST(BadRequest, UnknownNames) {
   expect_refused(folder, "run smoke --backend magic --out o", {"magic", "levenberg"});
   expect_refused(folder, "run smoke --dataset nowhere --out o", {"nowhere"});
   expect_refused(folder, "run smoke --set karto.nope=1 --out o", {"nope"});
+  expect_refused(folder, "run smoke --system karto --out o --set gmapping.particles=5",
+                 {"--set: system \"gmapping\" is not run; expected one of: karto"});
+  expect_refused(folder,
+                 "run smoke --out o --set karto.buffer_size_scans=50 "
+                 "--set karto.buffer_size_scans=60",
+                 {"--set: karto.buffer_size_scans is given twice"});
   expect_refused(folder, "run smoke --executor slurm --out o", {"slurm", "local"});
   expect_refused(folder, "simulate nowhere --out x.rawlog", {"nowhere"});
   expect_refused(folder, "data verify nowhere", {"nowhere"});
@@ -123,6 +129,17 @@ TEST(BadRequest, ASimulationThatCannotBeWrittenLeavesTheFilesThatWereThere) {
                  {"log.tum", "no regular file"});
   EXPECT_EQ(text_of(folder / "log.rawlog"), "my log");
   EXPECT_EQ(text_of(folder / "log.truth.toml"), "my world");
+}
+
+TEST(BadRequest, AnOutputThatCannotBeWritten) {
+  const ScratchFolder folder;
+  for (const std::string arguments : {"list systems", "--help", "data list --json"}) {
+    const Answer answer = run_program(folder, arguments + " >/dev/full 2>err.txt; echo $?");
+    EXPECT_EQ(answer.out, "2\n") << arguments;
+    const std::string said = text_of(folder / "err.txt");
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_NE(said.find("stdout"), std::string::npos) << said;
+  }
 }
 
 TEST(BadRequest, AnEvaluationWithNothingToCompare) {

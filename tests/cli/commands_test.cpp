@@ -161,8 +161,10 @@ TEST(Run, EndsWithOneIfACaseFails) {
 TEST(Run, TakesOnesOwnLogWithItsTruthBesideIt) {
   const ScratchFolder folder;
   ASSERT_EQ(run_program(folder, "simulate paper-corridor --out mine.rawlog").exit_code, 0);
-  const Answer answer = run_program(
-      folder, "run --system fusion-paper --dataset mine.rawlog --out o --no-report --quiet");
+  const Answer answer =
+      run_program(folder,
+                  "run --system fusion-paper --system fusion-paper --dataset mine.rawlog "
+                  "--dataset mine.rawlog --out o --no-report --quiet");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_EQ(answer.out, "");
   const auto store = results::ResultsStore::open_read_only(folder / "o" / "results.sqlite");
