@@ -131,6 +131,19 @@ TEST(BadRequest, ASimulationThatCannotBeWrittenLeavesTheFilesThatWereThere) {
   EXPECT_EQ(text_of(folder / "log.truth.toml"), "my world");
 }
 
+TEST(BadRequest, AConversionOntoItselfOrBesideAnotherLogsWorld) {
+  const ScratchFolder folder;
+  folder.write("a.clf", kGoodLog);
+  folder.write("b.truth.toml", "another world");
+  folder.write("c.tum", "1 0 0 0 0 0 0 1\n");
+  std::filesystem::create_symlink("a.clf", folder / "link.clf");
+  expect_refused(folder, "convert a.clf a.clf", {"a.clf", "the log that is read"});
+  expect_refused(folder, "convert a.clf ./link.clf", {"link.clf", "the log that is read"});
+  expect_refused(folder, "convert a.clf b.rawlog", {"b.truth.toml", "would pass for"});
+  expect_refused(folder, "convert a.clf c.rawlog", {"c.tum", "would pass for"});
+  EXPECT_EQ(text_of(folder / "a.clf"), kGoodLog);
+}
+
 TEST(BadRequest, AnOutputThatCannotBeWritten) {
   const ScratchFolder folder;
   for (const std::string arguments : {"list systems", "--help", "data list --json"}) {

@@ -63,6 +63,10 @@ TEST(Convert, SaysWhatTheTargetCannotHold) {
   EXPECT_NE(answer.out.find("IMU"), std::string::npos) << answer.out;
   EXPECT_TRUE(fs::exists(folder / "b.clf.gz"));
   EXPECT_TRUE(fs::exists(folder / "b.tum")) << "the truth goes along";
+  EXPECT_EQ(text_of(folder / "b.truth.toml"), text_of(folder / "a.truth.toml"));
+  const std::string truth = text_of(folder / "a.tum");
+  EXPECT_EQ(run_program(folder, "convert a.rawlog a.clf").exit_code, 0);
+  EXPECT_EQ(text_of(folder / "a.tum"), truth) << "one truth beside both";
 }
 
 TEST(Evaluate, GivesAHandComputedError) {
