@@ -23,17 +23,18 @@ struct Chain {
 using ReferencePoints = std::span<const Eigen::Vector2d>;
 
 // The scan of a chain closest to a point; the earliest of several.
-KeyScanId closest_in(const Chain& chain, const Eigen::Vector2d& point_m, ReferencePoints references);
+KeyScanId closest_in(const Chain& chain, const Eigen::Vector2d& point_m,
+                     ReferencePoints references);
 
-// Scans reached from `scan` by edges staying within `radius_m` of it, each extended to the maximal run
-// of consecutive ids inside that radius, in order of discovery. A run that contains `scan`
+// Scans reached from `scan` by edges staying within `radius_m` of it, each extended to the maximal
+// run of consecutive ids inside that radius, in order of discovery. A run that contains `scan`
 // itself is no earlier pass and is left out; so are runs of fewer than `min_scans`.
 std::vector<Chain> near_chains(const ScanLinks& links, ReferencePoints references, KeyScanId scan,
                                double radius_m, int min_scans);
 
 // The first loop candidate from id `begin` on: a run of consecutive scans within `radius_m` of
-// `scan`, none of which is linked to it by edges staying within that radius. A linked scan clears the
-// run. A scan out of radius ends it: returned if it has `min_scans`, else cleared. A run that
+// `scan`, none of which is linked to it by edges staying within that radius. A linked scan clears
+// the run. A scan out of radius ends it: returned if it has `min_scans`, else cleared. A run that
 // reaches the last id is returned whatever its length.
 std::optional<Chain> next_loop_candidate(const ScanLinks& links, ReferencePoints references,
                                          KeyScanId scan, KeyScanId begin, double radius_m,

@@ -14,17 +14,18 @@ namespace corridor::karto {
 
 struct GridSpec {
   double resolution_m = 0.01;
-  double window_m = 0.3;    // side of the search window
-  double reach_m = 12;      // longest beam
-  double smear_m = 0.03;    // standard deviation of an end point
+  double window_m = 0.3;  // side of the search window
+  double reach_m = 12;    // longest beam
+  double smear_m = 0.03;  // standard deviation of an end point
 
-  // Cells that may hold an end point: round(window / resolution) + 1 + 2 * ceil(reach / resolution).
+  // Cells that may hold an end point: round(window / resolution) + 1 + 2 * ceil(reach /
+  // resolution).
   [[nodiscard]] int inner_side_cells() const;
 };
 
 // Cells are addressed by linear index = column + row * stride(), and only the linear index is
-// range-checked by those who look up, as in the original: stride() is the side padded to 8. A border of
-// the kernel's half width + 1 around the inner cells takes the smear.
+// range-checked by those who look up, as in the original: stride() is the side padded to 8. A
+// border of the kernel's half width + 1 around the inner cells takes the smear.
 class CorrelationGrid {
  public:
   explicit CorrelationGrid(const GridSpec& spec);

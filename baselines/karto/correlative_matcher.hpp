@@ -15,7 +15,7 @@
 namespace corridor::karto {
 
 struct MatchOptions {
-  bool use_penalty = false;  // prefer poses near the prediction
+  bool use_penalty = false;    // prefer poses near the prediction
   bool use_refinement = true;  // fine stage after the coarse one
 };
 
@@ -42,7 +42,8 @@ class CorrelativeMatcher {
     int step_cells;
   };
 
-  void draw_local_map(const Eigen::Vector2d& viewpoint_m, std::span<const KeyScan* const> local_map);
+  void draw_local_map(const Eigen::Vector2d& viewpoint_m,
+                      std::span<const KeyScan* const> local_map);
   void select_beams(const KeyScan& scan);
   MatchResult coarse_search(const Pose2& centre, bool use_penalty);
   MatchResult search_coarse_once(const Pose2& centre, double half_width_rad, bool use_penalty);

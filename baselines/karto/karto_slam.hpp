@@ -12,11 +12,13 @@
 
 namespace corridor::karto {
 
-// Scans without wheel odometry near their stamp, and scans without a single beam in range, are tracked
-// with the last odometry and never become key scans; counters: "scans_without_odometry", "unusable_scans".
+// Scans without wheel odometry near their stamp, and scans without a single beam in range, are
+// tracked with the last odometry and never become key scans; counters: "scans_without_odometry",
+// "unusable_scans".
 class KartoSlam final : public SlamSystem, public graph::GraphSource {
  public:
-  // `params` must have no violations; requires back_end. Only the LiDAR's limit is read from `robot`.
+  // `params` must have no violations; requires back_end. Only the LiDAR's limit is read from
+  // `robot`.
   KartoSlam(const KartoParams& params, const RobotModel& robot,
             std::unique_ptr<backend::BackEnd> back_end);
   ~KartoSlam() override;

@@ -20,8 +20,8 @@ struct KeyScanOptions {
   bool keep_no_returns = true;
 };
 
-// Beams with a valid range up to the threshold are "in range"; the others still have an end point if
-// their raw range is finite, because the response counts them.
+// Beams with a valid range up to the threshold are "in range"; the others still have an end point
+// if their raw range is finite, because the response counts them.
 class KeyScan {
  public:
   KeyScan(const LaserScan& scan, const Pose2& T_odom_base, const KeyScanOptions& options);

@@ -30,8 +30,8 @@ class Mapper {
   Mapper(const KartoParams& params, double range_threshold_m, PoseGraph pose_graph,
          StageClock& clock);
 
-  // Adds a usable scan standing at its predicted pose; numbers it and corrects its pose, and at a loop
-  // closure those of all scans. The first is taken where it stands.
+  // Adds a usable scan standing at its predicted pose; numbers it and corrects its pose, and at a
+  // loop closure those of all scans. The first is taken where it stands.
   void add(KeyScan scan);
 
   [[nodiscard]] const std::vector<KeyScan>& scans() const { return scans_; }

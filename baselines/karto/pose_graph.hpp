@@ -1,7 +1,8 @@
 // The key scans' pose graph on any back-end, in Karto's terms.
-// Edges have the component error of [Konolige2010] eq. 2; a prior on the first pose fixes the gauge.
-// The mapper works in the frame in which odometry started ("map" below), the graph's variables are
-// in the frame of the trajectory, that of the base at the first scan, so that both agree.
+// Edges have the component error of [Konolige2010] eq. 2; a prior on the first pose fixes the
+// gauge. The mapper works in the frame in which odometry started ("map" below), the graph's
+// variables are in the frame of the trajectory, that of the base at the first scan, so that both
+// agree.
 #pragma once
 
 #include <memory>

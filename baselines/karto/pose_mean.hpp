@@ -16,11 +16,12 @@ struct PoseWithCovariance {
 enum class HeadingMean { kPlain, kByInformation };
 
 // Position and heading block: (sum P^-1)^-1 sum P^-1 x [Konolige2010]. The heading is then the
-// circular mean, unweighted (as shipped) or weighted by 1 / variance. Requires at least one estimate.
+// circular mean, unweighted (as shipped) or weighted by 1 / variance. Requires at least one
+// estimate.
 Pose2 mean_pose(std::span<const PoseWithCovariance> estimates, HeadingMean heading_mean);
 
-// Inverse of a covariance whose eigenvalues are first raised to at least 1e-9, so that a match that is
-// certain in one direction cannot make it infinite.
+// Inverse of a covariance whose eigenvalues are first raised to at least 1e-9, so that a match that
+// is certain in one direction cannot make it infinite.
 Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance);
 
 }  // namespace corridor::karto

@@ -1,5 +1,5 @@
-// Responses of all poses of one search, and what follows from them: the best pose and its covariance.
-// [Olson2009] section IV, as [Konolige2010] ships it.
+// Responses of all poses of one search, and what follows from them: the best pose and its
+// covariance. [Olson2009] section IV, as [Konolige2010] ships it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,8 @@
 
 namespace corridor::karto {
 
-// One axis of a search: offsets -half_width, -half_width + step, ... relative to the search's centre.
+// One axis of a search: offsets -half_width, -half_width + step, ... relative to the search's
+// centre.
 struct SearchAxis {
   double half_width = 0;
   double step = 1;
@@ -62,8 +63,8 @@ struct SearchOffset {
 // Mean of all offsets whose response is the best within 1e-6; circular mean for the heading.
 SearchOffset mean_best_offset(const ResponseTable& table, double best_response);
 
-// 2x2 [m^2], order (x, y) of the map, around `best`: each position counts with its best response over
-// the headings if that is within 0.1 of the best one, weight = response; variances at least
+// 2x2 [m^2], order (x, y) of the map, around `best`: each position counts with its best response
+// over the headings if that is within 0.1 of the best one, weight = response; variances at least
 // 0.1 * step^2; all divided by the best response. 500 m^2 on the diagonal if nothing responds.
 Eigen::Matrix2d positional_covariance(const ResponseTable& table, double best_response,
                                       const SearchOffset& best);

@@ -19,8 +19,8 @@ class ScanLinks {
 
   [[nodiscard]] std::size_t num_scans() const { return neighbours_.size(); }
 
-  // Breadth-first from `start` over edges, through scans for which `is_near` holds only. In visiting
-  // order, `start` first.
+  // Breadth-first from `start` over edges, through scans for which `is_near` holds only. In
+  // visiting order, `start` first.
   [[nodiscard]] std::vector<KeyScanId> reachable(
       KeyScanId start, const std::function<bool(KeyScanId)>& is_near) const;
 

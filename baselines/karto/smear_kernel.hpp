@@ -9,9 +9,9 @@ namespace corridor::karto {
 // Value of a cell that holds an end point; look-ups divide by it.
 inline constexpr std::uint8_t kOccupied = 100;
 
-// Square of side 2 * half_width + 1 around the end point; value round(100 * exp(-0.5 (d / sigma)^2))
-// with half width round(2 * sigma / resolution). Rows lie `stride` bytes apart; the bytes beyond the
-// side are zero, so that whole blocks of kBlock bytes can be merged with max().
+// Square of side 2 * half_width + 1 around the end point; value round(100 * exp(-0.5 (d /
+// sigma)^2)) with half width round(2 * sigma / resolution). Rows lie `stride` bytes apart; the
+// bytes beyond the side are zero, so that whole blocks of kBlock bytes can be merged with max().
 struct SmearKernel {
   static constexpr int kBlock = 16;
 

@@ -24,8 +24,9 @@ enum class EdgeRule {
   kStop,  // the column is checked as well: such a beam reads nothing
 };
 
-// sums[j * count + i] = sum over beams of the grid's value at position (i, j) plus offset. Steps of two
-// cells, the coarse searches, run over 16 positions at once (see README, "Speed"); sums are exact.
+// sums[j * count + i] = sum over beams of the grid's value at position (i, j) plus offset. Steps of
+// two cells, the coarse searches, run over 16 positions at once (see README, "Speed"); sums are
+// exact.
 void sweep_window(const CorrelationGrid& grid, std::span<const BeamOffset> offsets,
                   const SweepWindow& window, EdgeRule edge_rule, std::vector<std::uint32_t>& sums);
 

@@ -1,8 +1,8 @@
 #include "datasets/simulation/ray_casting.hpp"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
