@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the release and runs every test of it.
 #   tests/run.sh          release build and its tests (20 minutes at most on 2 cores)
-#   tests/run.sh --full   also formatting, clang-tidy, and build and tests with AddressSanitizer and
+#   tests/run.sh --full   also formatting, and build and tests with AddressSanitizer and
 #                         UndefinedBehaviorSanitizer (40 minutes at most)
 # Tests that need recorded data look for it in $CORRIDOR_BENCH_DATA and are skipped, with a message,
 # where it is not. Needs root only while packages are missing.
@@ -53,14 +53,6 @@ check_format() {
     echo "$(our_sources | wc -l) files are formatted"
 }
 
-# Library and program sources; the tests' macros make most checks fire on code nobody wrote.
-check_tidy() {
-  our_sources | sed -n '/^tests\//d; /\.cpp$/p' |
-    xargs --max-procs="$jobs" --max-args=1 clang-tidy --quiet -p build/release --warnings-as-errors='*' 2>&1 |
-    sed -E '/^[0-9]+ warnings? (generated|treated as error)/d; /^Suppressed /d; /^Use -/d' &&
-    echo "clang-tidy has nothing to say"
-}
-
 # Number in attribute $2 of the summary that ctest wrote for preset $1.
 count_of() {
   local file=build/$1/tests.xml
@@ -87,10 +79,6 @@ for preset in "${presets[@]}"; do
     failed_steps=$((failed_steps + 1))
   fi
 done
-
-if $is_full; then
-  corridor_step "clang-tidy" check_tidy || failed_steps=$((failed_steps + 1))
-fi
 
 corridor_print_steps
 tests=0 failed=0 skipped=0
