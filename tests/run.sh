@@ -19,6 +19,8 @@ done
 
 jobs=$(corridor_jobs)
 cd "$corridor_root"
+# For the sanitizer build: what libraries of others leave to the end of the process.
+export LSAN_OPTIONS="suppressions=$corridor_root/tests/support/leaks.supp:print_suppressions=0"
 
 build() {
   cmake --preset "$1" &&
