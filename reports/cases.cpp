@@ -1,7 +1,5 @@
 #include "reports/cases.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -11,6 +9,7 @@
 
 #include "bench/results/result_json.hpp"
 #include "bench/results/results_store.hpp"
+#include "reports/series_labels.hpp"
 
 namespace corridor::reports {
 namespace {
@@ -21,12 +20,17 @@ constexpr std::array<std::string_view, 8> kOrder = {
     "dead-reckoning", "dead-reckoning-gyro", "mrpt-icp", "mrpt-rbpf", "gmapping",
     "karto",          "fusion-paper",        "fusion"};
 
+// The profile of what a program's users get; others change something and are named after it.
+constexpr std::string_view kShippedProfile = "shipped";
+
 std::size_t rank(const std::string& system) {
   return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), system) - kOrder.begin());
 }
 
 auto sort_key(const Series& series) {
-  return std::make_tuple(rank(series.system), series.system, series.profile, series.backend);
+  return std::make_tuple(rank(series.system), series.system, series.profile != kShippedProfile,
+                         series.profile, series.backend, series.parameters_hash,
+                         series.git_revision);
 }
 
 auto sort_key(const Case& entry) {
@@ -79,7 +83,8 @@ Result<void> read_run_dir(const fs::path& run_dir, std::vector<Case>& cases,
 }  // namespace
 
 Series series_of(const results::RunResult& result) {
-  return {result.system, result.profile, result.backend.value_or("")};
+  return {result.system, result.profile, result.backend.value_or(""), result.parameters_hash,
+          result.git_revision};
 }
 
 World world_of(const results::RunResult& result) {
@@ -95,6 +100,7 @@ Cases::Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
   std::sort(machines_.begin(), machines_.end(),
             [](const auto& left, const auto& right) { return left.machine_id < right.machine_id; });
   machines_.erase(std::unique(machines_.begin(), machines_.end()), machines_.end());
+  labels_ = series_labels(cases_);
 }
 
 std::vector<std::string> Cases::datasets() const {
@@ -125,19 +131,6 @@ std::vector<const Case*> Cases::of(const std::string& dataset, const Series& ser
   std::vector<const Case*> found = of(dataset);
   std::erase_if(found, [&](const Case* entry) { return series_of(entry->result) != series; });
   return found;
-}
-
-std::string Cases::label(const Series& series) const {
-  std::set<std::string> profiles;
-  std::set<std::string> backends;
-  for (const Case& entry : cases_) {
-    if (entry.result.system != series.system) continue;
-    profiles.insert(entry.result.profile);
-    backends.insert(entry.result.backend.value_or(""));
-  }
-  return fmt::format("{}{}{}", series.system,
-                     profiles.size() > 1 ? "@" + series.profile : std::string(),
-                     backends.size() > 1 ? "/" + series.backend : std::string());
 }
 
 Result<Cases> load_cases(const std::vector<fs::path>& run_dirs) {

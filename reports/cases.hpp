@@ -1,10 +1,11 @@
 // All cases of a report, sorted and grouped: by data set, then by series (system, profile,
-// back-end). It computes no statistics (tables/summary.hpp).
+// back-end, parameters, code revision). It computes no statistics (tables/summary.hpp).
 #pragma once
 
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +21,14 @@ struct Case {
   std::filesystem::path dir;  // runs/<case-id>: trajectories and maps, where the run left any
 };
 
-// What is compared: one system with one set of parameters.
+// What is compared: one system with one set of parameters, made by one revision of the code.
+// Numbers of different parameters or different code are never pooled.
 struct Series {
   std::string system;
-  std::string profile;
-  std::string backend;  // empty without one
+  std::string profile = {};
+  std::string backend = {};  // empty without one
+  std::string parameters_hash = {};
+  std::string git_revision = {};
 
   auto operator<=>(const Series&) const = default;
 };
@@ -52,17 +56,19 @@ class Cases {
   [[nodiscard]] const std::vector<std::filesystem::path>& run_dirs() const { return run_dirs_; }
   [[nodiscard]] const std::vector<results::Machine>& machines() const { return machines_; }
   [[nodiscard]] std::vector<std::string> datasets() const;
-  // In the order of reports: the floor, rivals, references, the fusion systems, then other names.
+  // In the order of reports: the floor, references, rivals, the fusion systems, then other names;
+  // of one system first what it ships with.
   [[nodiscard]] std::vector<Series> series() const;
   [[nodiscard]] std::vector<const Case*> of(const std::string& dataset) const;
   [[nodiscard]] std::vector<const Case*> of(const std::string& dataset, const Series& series) const;
-  // The system's name, with "@profile" and "/backend" only where the cases hold more than one.
-  [[nodiscard]] std::string label(const Series& series) const;
+  // The name for people (series_labels.hpp); requires a series of the cases.
+  [[nodiscard]] const std::string& label(const Series& series) const { return labels_.at(series); }
 
  private:
   std::vector<Case> cases_;
   std::vector<results::Machine> machines_;
   std::vector<std::filesystem::path> run_dirs_;
+  std::map<Series, std::string> labels_;
 };
 
 // Reads results.sqlite of every directory or, where there is none, every runs/*/result.json. An

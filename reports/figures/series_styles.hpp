@@ -1,6 +1,6 @@
 // Which style each series of a report has, the same in every figure: the first series of a system
-// has the system's own style, further ones (other profiles, other back-ends) and unknown systems
-// get spares in turn.
+// has the system's own style, further ones (other profiles, back-ends, parameters, revisions) and
+// unknown systems get spares in turn.
 #pragma once
 
 #include <map>

@@ -1,0 +1,19 @@
+// Readable names of series, as short as they can be while no two are the same.
+// It knows the cases' records only: which parameter is a default is the systems' knowledge.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reports/cases.hpp"
+
+namespace corridor::reports {
+
+// The system's name; "@profile" and "/backend" where the system ran with more than one; then in
+// brackets what else tells series of that name apart: up to two parameters with their values (a
+// hash of all where more differ), and the code's revision. "karto@shipped (a=1, b=2)",
+// "fusion (#88adda; at 48762d9+dirty)".
+std::map<Series, std::string> series_labels(const std::vector<Case>& cases);
+
+}  // namespace corridor::reports
