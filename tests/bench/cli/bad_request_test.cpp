@@ -2,7 +2,7 @@
 // nothing is left behind.
 #include <gtest/gtest.h>
 
-#include "tests/cli/program.hpp"
+#include "tests/bench/cli/program.hpp"
 
 namespace corridor::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/results/results_store.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/bench/cli/program.hpp"
 #include "tests/support/recorded_data.hpp"
 
 namespace corridor::testing {
