@@ -13,8 +13,9 @@ struct Verdict {
   std::vector<std::string> sentences;
 };
 
-// Per data set: which system is the most accurate, how the fusion systems compare with each rival,
-// which way the map is wrong; at the end how many cases failed. Plain text, to be escaped.
+// Per data set: how the most accurate series, the fusion systems and the floor (wheels and gyro)
+// stand against every other one, which way each map is wrong; at the end which cases failed. Plain
+// text, to be escaped.
 std::vector<Verdict> verdicts(const reports::Cases& cases);
 
 }  // namespace corridor::html

@@ -245,41 +245,5 @@ TEST(WriteReport, KeepsHostileNamesHarmlessEverywhere) {
   }
 }
 
-std::vector<std::string> all_sentences(const Cases& cases) {
-  std::vector<std::string> sentences;
-  for (const html::Verdict& verdict : html::verdicts(cases)) {
-    sentences.insert(sentences.end(), verdict.sentences.begin(), verdict.sentences.end());
-  }
-  return sentences;
-}
-
-TEST(Verdicts, FollowTheNumbersAndNotTheNames) {
-  testing::SyntheticRun run = testing::paper_like_run();
-  for (testing::SyntheticSystem& system : run.systems) {
-    if (system.name == "fusion") system.shrink_ratio = 0.3;  // now the worst of all
-  }
-  std::vector<Case> all;
-  for (const testing::SyntheticSystem& system : run.systems) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      all.push_back({testing::synthetic_result(run, system, seed), {}});
-    }
-  }
-  const auto sentences = all_sentences(Cases(all, {}, {}));
-  EXPECT_THAT(sentences, Contains(AllOf(HasSubstr("The position error of fusion as a factor"),
-                                        HasSubstr("over 8 worlds (larger)"))));
-  EXPECT_THAT(sentences, Not(Contains(HasSubstr("fusion has the smallest"))));
-  EXPECT_THAT(sentences, Contains(HasSubstr("All 40 cases ended with status ok.")));
-}
-
-TEST(Verdicts, SayThatTheMapIsTooShort) {
-  const testing::SyntheticRun run = testing::paper_like_run();
-  std::vector<Case> all;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    all.push_back({testing::synthetic_result(run, {"karto", 0.06, 0.01}, seed), {}});
-  }
-  EXPECT_THAT(all_sentences(Cases(all, {}, {})),
-              Contains(HasSubstr("b is too short: measured - true = -1.249 m")));
-}
-
 }  // namespace
 }  // namespace corridor::reports

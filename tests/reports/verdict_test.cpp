@@ -1,0 +1,129 @@
+// What the page's sentences claim, and what they leave open.
+#include "reports/html/verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/reports/synthetic_run.hpp"
+
+namespace corridor::reports {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+Cases synthetic_cases(const testing::SyntheticRun& run, std::uint64_t num_worlds = 8) {
+  std::vector<Case> all;
+  for (const testing::SyntheticSystem& system : run.systems) {
+    for (std::uint64_t seed = 1; seed <= num_worlds; ++seed) {
+      all.push_back({testing::synthetic_result(run, system, seed), {}});
+    }
+  }
+  return {std::move(all), {}, {}};
+}
+
+std::vector<std::string> all_sentences(const Cases& cases) {
+  std::vector<std::string> sentences;
+  for (const html::Verdict& verdict : html::verdicts(cases)) {
+    sentences.insert(sentences.end(), verdict.sentences.begin(), verdict.sentences.end());
+  }
+  return sentences;
+}
+
+testing::SyntheticRun run_of(std::vector<testing::SyntheticSystem> systems) {
+  testing::SyntheticRun run;
+  run.systems = std::move(systems);
+  return run;
+}
+
+TEST(Verdicts, FollowTheNumbersAndNotTheNames) {
+  testing::SyntheticRun run = testing::paper_like_run();
+  for (testing::SyntheticSystem& system : run.systems) {
+    if (system.name == "fusion") system.shrink_ratio = 0.3;  // now the worst of all
+  }
+  const auto sentences = all_sentences(synthetic_cases(run));
+  EXPECT_THAT(sentences,
+              Contains(AllOf(StartsWith("The position error of fusion is"),
+                             HasSubstr("the largest median of 5"),
+                             HasSubstr("It is shown to be larger than that of all 4 others"))));
+  EXPECT_THAT(sentences, Contains(HasSubstr("All 40 cases ended with status ok.")));
+}
+
+TEST(Verdicts, NameTheSmallestLeadAmongAllOtherSystemsWithRatioIntervalAndCount) {
+  auto run = run_of({{"dead-reckoning", 0.05},
+                     {"mrpt-icp", 0.2},
+                     {"mrpt-rbpf", 0.1},
+                     {"fusion-paper", 0.02},
+                     {"fusion", 0.01}});
+  EXPECT_THAT(all_sentences(synthetic_cases(run)),
+              Contains(AllOf(
+                  StartsWith("The position error of fusion is 0.096 m ["),
+                  HasSubstr("n = 8 of 8 worlds, the smallest median of 5"),
+                  HasSubstr("smaller than that of all 4 others, closest fusion-paper: ratio 0.500 "
+                            "[0.500, 0.500], n = 8."))));
+}
+
+TEST(Verdicts, SayOfTheGyroAloneWhatItBeats) {
+  auto run = run_of({{"dead-reckoning-gyro", 0.02}, {"gmapping", 0.08}, {"fusion", 0.01}});
+  EXPECT_THAT(all_sentences(synthetic_cases(run)),
+              Contains(AllOf(StartsWith("The position error of dead-reckoning-gyro is"),
+                             HasSubstr("smaller than that of gmapping (ratio 0.250"),
+                             HasSubstr("larger than that of fusion (ratio 2.000"))));
+}
+
+TEST(Verdicts, ClaimNoDifferenceThatTheIntervalDoesNotShow) {
+  const auto run = run_of({{"karto", 0.02, 0}, {"fusion", 0.02, 0.09}});  // now better, now worse
+  const auto sentences = all_sentences(synthetic_cases(run));
+  EXPECT_THAT(sentences, Contains(AllOf(StartsWith("The position error of fusion is"),
+                                        HasSubstr("It is not shown to differ from that of karto "
+                                                  "(ratio "))));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("shown to be smaller"))));
+}
+
+TEST(Verdicts, SayThatALeadWasWonInFewerWorlds) {
+  const auto run = run_of({{"karto", 0.06}, {"fusion", 0.01}});
+  std::vector<Case> all = synthetic_cases(run).all();
+  for (Case& entry : all) {
+    if (entry.result.system != "fusion" || entry.result.data_seed != 3U) continue;
+    entry.result.status = results::CaseStatus::kPartial;
+  }
+  EXPECT_THAT(all_sentences(Cases(all, {}, {})),
+              Contains(AllOf(HasSubstr("(n = 7 of 8 worlds, the smallest median of 2)"),
+                             HasSubstr("It gave a value in fewer worlds than karto."))));
+}
+
+TEST(Verdicts, OfTooFewWorldsCompareNothing) {
+  const auto run = run_of({{"karto", 0.06}, {"fusion", 0.01}});
+  const auto sentences = all_sentences(synthetic_cases(run, 5));
+  EXPECT_THAT(sentences, Contains(HasSubstr("It is not compared with that of karto (fewer than 6 "
+                                            "common worlds).")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("b has too few worlds for a verdict")));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("shown to be"))));
+}
+
+TEST(Verdicts, OfOneSystemCompareNothing) {
+  EXPECT_THAT(all_sentences(synthetic_cases(run_of({{"karto", 0.06}}))),
+              Contains(AllOf(StartsWith("The position error of karto is"),
+                             HasSubstr("no other one was measured"))));
+}
+
+TEST(Verdicts, SayThatTheMapIsTooShort) {
+  EXPECT_THAT(all_sentences(synthetic_cases(run_of({{"karto", 0.06, 0.01}}))),
+              Contains(HasSubstr("b is too short: measured - true = -1.249 m")));
+}
+
+TEST(Verdicts, NameTheSystemWhoseCasesFailed) {
+  const auto run = run_of({{"mrpt-icp", 0.06}});
+  auto lost = testing::synthetic_result(run, run.systems[0], 1);
+  lost.status = results::CaseStatus::kDiverged;
+  const auto fine = testing::synthetic_result(run, run.systems[0], 2);
+  EXPECT_THAT(all_sentences(Cases({{lost, {}}, {fine, {}}}, {}, {})),
+              AllOf(Contains("1 of 2 cases did not end with status ok."),
+                    Contains("mrpt-icp on synthetic-corridor: 1 of 2 diverged.")));
+}
+
+}  // namespace
+}  // namespace corridor::reports
