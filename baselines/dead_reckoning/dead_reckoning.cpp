@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "slam/core/expect.hpp"
 #include "slam/motion/imu_preintegration.hpp"
 #include "slam/motion/wheel_track.hpp"
 
@@ -18,7 +19,7 @@ class DeadReckoning final : public SlamSystem {
     return params_.use_gyro ? "dead-reckoning-gyro" : "dead-reckoning";
   }
 
-  Result<StepReport> step(const SensorEvent& event) override {
+  Result<StepReport> on_event(const SensorEvent& event) override {
     const auto stage = stage_clock().enter(Stage::kPredict);
     StepReport report;
     report.stamp = stamp_of(event);
@@ -34,10 +35,8 @@ class DeadReckoning final : public SlamSystem {
                     std::string(name()), "a log with a gyro");
       }
       move_to(report.stamp);
-      if (!estimate_.trajectory.append({report.stamp, T_map_base_, std::nullopt})) {
-        return fail(ErrorCode::kInvalid, "a scan's stamp is not later than the one before",
-                    std::string(name()), "stamps in order");
-      }
+      const bool is_later = estimate_.trajectory.append({report.stamp, T_map_base_, std::nullopt});
+      CORRIDOR_ENSURE(is_later);
       report.status = StepStatus::kTracked;
       report.T_map_base = T_map_base_;
     }

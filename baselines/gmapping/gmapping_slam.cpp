@@ -47,16 +47,12 @@ class GmappingSlam final : public SlamSystem {
 
   [[nodiscard]] std::string_view name() const override { return "gmapping"; }
 
-  Result<StepReport> step(const SensorEvent& event) override {
+  Result<StepReport> on_event(const SensorEvent& event) override {
     if (const auto* wheel = std::get_if<WheelSample>(&event)) wheel_track_.add(*wheel);
     const auto* scan = std::get_if<LaserScan>(&event);
     StepReport report;
     report.stamp = stamp_of(event);
     if (scan == nullptr) return report;
-    if (!records_.empty() && scan->stamp <= records_.back().stamp) {
-      return fail(ErrorCode::kInvalid, "scan stamp does not increase",
-                  fmt::format("scan {}", records_.size()), "a stamp later than the last scan's");
-    }
     report.is_key_scan = on_scan(*scan);
     report.status = StepStatus::kTracked;
     if (report.is_key_scan) T_map_start_ = filter_.best().T_map_base * T_start_base_.inverse();

@@ -52,8 +52,7 @@ class KartoSlam::Impl {
     return nothing_to_do(sample.stamp);
   }
 
-  Result<StepReport> take(const LaserScan& scan) {
-    if (auto error = defect_of(scan)) return tl::make_unexpected(*error);
+  StepReport take(const LaserScan& scan) {
     update_odometry(scan.stamp);
     records_.push_back({scan.stamp, T_odom_base_.value_or(Pose2{}), false});
     if (T_odom_base_) consider(scan);
@@ -84,18 +83,6 @@ class KartoSlam::Impl {
   [[nodiscard]] const backend::BackEnd& unused_back_end() const { return *back_end_; }
 
  private:
-  [[nodiscard]] std::optional<Error> defect_of(const LaserScan& scan) const {
-    if (scan.is_valid.size() != scan.num_beams()) {
-      return Error{ErrorCode::kInvalid, "scan with unequal numbers of ranges and validities",
-                   std::to_string(to_seconds(scan.stamp)) + " s", "as many"};
-    }
-    if (!records_.empty() && scan.stamp <= records_.back().stamp) {
-      return Error{ErrorCode::kInvalid, "scan's stamp does not increase",
-                   std::to_string(to_seconds(scan.stamp)) + " s", "stamps in order"};
-    }
-    return std::nullopt;
-  }
-
   void update_odometry(Timestamp stamp) {
     const auto in_stage = clock_.enter(Stage::kPredict);
     if (const auto T_odom_base = wheels_.pose_at(stamp)) {
@@ -216,7 +203,7 @@ KartoSlam::KartoSlam(const KartoParams& params, const RobotModel& robot,
 
 KartoSlam::~KartoSlam() = default;
 
-Result<StepReport> KartoSlam::step(const SensorEvent& event) {
+Result<StepReport> KartoSlam::on_event(const SensorEvent& event) {
   if (const auto* wheels = std::get_if<WheelSample>(&event)) return impl_->take(*wheels);
   if (const auto* scan = std::get_if<LaserScan>(&event)) return impl_->take(*scan);
   return nothing_to_do(stamp_of(event));

@@ -24,7 +24,7 @@ class KartoSlam final : public SlamSystem, public graph::GraphSource {
   ~KartoSlam() override;
 
   [[nodiscard]] std::string_view name() const override { return "karto"; }
-  Result<StepReport> step(const SensorEvent& event) override;
+  Result<StepReport> on_event(const SensorEvent& event) override;
   Result<SlamEstimate> finish() override;
 
   [[nodiscard]] const graph::FactorGraph& solved_graph() const override;

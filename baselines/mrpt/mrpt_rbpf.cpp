@@ -77,16 +77,12 @@ class MrptRbpf final : public SlamSystem {
 
   [[nodiscard]] std::string_view name() const override { return "mrpt-rbpf"; }
 
-  Result<StepReport> step(const SensorEvent& event) override {
+  Result<StepReport> on_event(const SensorEvent& event) override {
     StepReport report;
     report.stamp = stamp_of(event);
     if (const auto* wheel = std::get_if<WheelSample>(&event)) wheel_track_.add(*wheel);
     const auto* scan = std::get_if<LaserScan>(&event);
     if (scan == nullptr) return report;
-    if (!records_.empty() && scan->stamp <= records_.back().stamp) {
-      return fail(ErrorCode::kInvalid, "scan stamp does not increase",
-                  fmt::format("scan {}", records_.size()), "a stamp later than the last scan's");
-    }
     try {
       on_scan(*scan, report);
     } catch (const std::exception& error) {

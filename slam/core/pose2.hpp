@@ -9,6 +9,9 @@ namespace corridor {
 // Wraps to (-pi, pi]. `angle_rad` must be finite.
 double wrap_angle(double angle_rad);
 
+// v turned by +90 degrees: d R(theta) v / d theta = perpendicular(R(theta) v).
+inline Eigen::Vector2d perpendicular(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
 // T_a_b: p_a = T_a_b * p_b. Order of every vector and matrix: (x_m, y_m, theta_rad).
 // Invariant: theta_rad lies in (-pi, pi] (the constructor wraps).
 class Pose2 {

@@ -21,6 +21,39 @@ const char* name_of(const SensorEvent& event) {
   return kNames[event.index()];
 }
 
+std::optional<std::string> defect(const LaserScan& scan) {
+  if (scan.num_beams() == 0 || scan.is_valid.size() != scan.num_beams()) {
+    return fmt::format("scan with {} ranges and {} validities; expected as many, not 0",
+                       scan.num_beams(), scan.is_valid.size());
+  }
+  if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad) ||
+      !scan.T_base_lidar.is_finite() || !std::isfinite(scan.range_max_m)) {
+    return "scan geometry is not finite";
+  }
+  for (std::size_t i = 0; i < scan.num_beams(); ++i) {
+    if (!scan.is_valid[i]) continue;
+    const double range_m = scan.ranges_m[i];
+    if (!(range_m > 0 && range_m <= scan.range_max_m)) {
+      return fmt::format("beam {} is marked valid with range {} m; expected (0, {}] m", i, range_m,
+                         scan.range_max_m);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> defect(const WheelSample& sample) {
+  if (sample.T_odom_base.is_finite()) return std::nullopt;
+  return "odometry pose is not finite";
+}
+
+std::optional<std::string> defect(const ImuSample& sample) {
+  if (std::isfinite(sample.gyro_z_radps) && std::isfinite(sample.accel_x_mps2) &&
+      std::isfinite(sample.accel_y_mps2)) {
+    return std::nullopt;
+  }
+  return "IMU reading is not finite";
+}
+
 class DefectFinder {
  public:
   DefectFinder(const LogLimits& limits, std::size_t max_lines)
@@ -32,7 +65,11 @@ class DefectFinder {
 
   void visit(std::size_t index, const SensorEvent& event) {
     check_order(index, event);
-    std::visit([&](const auto& reading) { check(index, reading); }, event);
+    if (const auto what = defect_of(event)) {
+      add(fmt::format("event {}: {}", index, *what));
+    } else {
+      std::visit([&](const auto& reading) { check(index, reading); }, event);
+    }
   }
 
   std::vector<std::string> take() { return std::move(found_); }
@@ -60,36 +97,14 @@ class DefectFinder {
   }
 
   void check(std::size_t index, const LaserScan& scan) {
-    if (scan.num_beams() == 0 || scan.is_valid.size() != scan.num_beams()) {
-      add(fmt::format("event {}: scan with {} ranges and {} validities; expected as many, not 0",
-                      index, scan.num_beams(), scan.is_valid.size()));
-      return;
-    }
     if (num_beams_ && scan.num_beams() != *num_beams_) {
       add(fmt::format("event {}: scan of {} beams; expected {} as before", index, scan.num_beams(),
                       *num_beams_));
     }
     num_beams_ = scan.num_beams();
-    if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad) ||
-        !scan.T_base_lidar.is_finite() || !std::isfinite(scan.range_max_m)) {
-      add(fmt::format("event {}: scan geometry is not finite", index));
-    }
-    for (std::size_t i = 0; i < scan.num_beams(); ++i) {
-      if (!scan.is_valid[i]) continue;
-      const double range_m = scan.ranges_m[i];
-      if (!(range_m > 0 && range_m <= scan.range_max_m)) {
-        add(fmt::format("event {}: beam {} is marked valid with range {} m; expected (0, {}] m",
-                        index, i, range_m, scan.range_max_m));
-        return;
-      }
-    }
   }
 
   void check(std::size_t index, const WheelSample& sample) {
-    if (!sample.T_odom_base.is_finite()) {
-      add(fmt::format("event {}: odometry pose is not finite", index));
-      return;
-    }
     if (last_wheel_) {
       const double step_s = seconds_between(last_wheel_->stamp, sample.stamp);
       const Pose2 step = last_wheel_->T_odom_base.between(sample.T_odom_base);
@@ -102,10 +117,7 @@ class DefectFinder {
   }
 
   void check(std::size_t index, const ImuSample& sample) {
-    if (!std::isfinite(sample.gyro_z_radps) || !std::isfinite(sample.accel_x_mps2) ||
-        !std::isfinite(sample.accel_y_mps2)) {
-      add(fmt::format("event {}: IMU reading is not finite", index));
-    } else if (std::abs(sample.gyro_z_radps) > limits_.max_yaw_rate_radps) {
+    if (std::abs(sample.gyro_z_radps) > limits_.max_yaw_rate_radps) {
       add(fmt::format("event {}: yaw rate {:.3f} rad/s; expected at most {} (degrees per second?)",
                       index, sample.gyro_z_radps, limits_.max_yaw_rate_radps));
     }
@@ -124,6 +136,10 @@ class DefectFinder {
 
 Timestamp stamp_of(const SensorEvent& event) {
   return std::visit([](const auto& reading) { return reading.stamp; }, event);
+}
+
+std::optional<std::string> defect_of(const SensorEvent& event) {
+  return std::visit([](const auto& reading) { return defect(reading); }, event);
 }
 
 std::size_t SensorLog::num_scans() const { return count_of<LaserScan>(events); }

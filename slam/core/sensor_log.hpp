@@ -19,6 +19,10 @@ using SensorEvent = std::variant<LaserScan, WheelSample, ImuSample>;
 
 Timestamp stamp_of(const SensorEvent& event);
 
+// What makes one event unfit by itself: values that are not finite, a scan without beams or whose
+// arrays differ in length, a valid range outside (0, range_max_m]. nullopt: nothing.
+std::optional<std::string> defect_of(const SensorEvent& event);
+
 struct Provenance {
   std::string name;    // data set's name, or the file's
   std::string source;  // path of the file, or "simulated"

@@ -50,8 +50,9 @@ class SlamSystem {
   virtual ~SlamSystem() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  // Events in the order of the log. An Error means that the event itself cannot be used.
-  virtual Result<StepReport> step(const SensorEvent& event) = 0;
+  // Events in the order of the log. An Error means that the event itself cannot be used; one with a
+  // defect (sensor_log.hpp) or out of order never reaches the system.
+  Result<StepReport> step(const SensorEvent& event);
   // Called once, after the last event.
   virtual Result<SlamEstimate> finish() = 0;
 
@@ -59,6 +60,10 @@ class SlamSystem {
   [[nodiscard]] StageClock& stage_clock() { return stage_clock_; }
 
  private:
+  // An event without a defect; stamps never decrease, those of scans increase.
+  virtual Result<StepReport> on_event(const SensorEvent& event) = 0;
+
+  std::optional<Timestamp> last_stamp_, last_scan_stamp_;
   StageClock stage_clock_;
 };
 

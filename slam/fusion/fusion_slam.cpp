@@ -45,7 +45,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   const graph::FactorGraph& solved_graph() const override { return back_end_->graph(); }
   const graph::Values& solved_values() const override { return back_end_->estimate(); }
 
-  Result<StepReport> step(const SensorEvent& event) override {
+  Result<StepReport> on_event(const SensorEvent& event) override {
     StepReport report;
     report.stamp = stamp_of(event);
     if (const auto* scan = std::get_if<LaserScan>(&event)) return on_scan(*scan);

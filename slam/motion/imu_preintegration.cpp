@@ -17,9 +17,6 @@ Eigen::Matrix2d rotation(double theta_rad) {
 constexpr double kUnmeasuredRate_radps = 1.0;
 constexpr double kUnmeasuredAcceleration_mps2 = 1.0;
 
-// d R(theta) v / d theta = kTurn * R(theta) v.
-const Eigen::Matrix2d kTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
-
 }  // namespace
 
 ImuDelta ImuDelta::corrected(const Eigen::Vector3d& other_bias) const {
@@ -66,7 +63,7 @@ void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
   // Midpoint rule: the rotation half way through the interval.
   const Eigen::Matrix2d R = rotation(d.theta_rad + 0.5 * rate * dt);
   const Eigen::Vector2d a = R * acceleration_base;
-  const Eigen::Vector2d turned = kTurn * a;
+  const Eigen::Vector2d turned = perpendicular(a);
 
   Eigen::Matrix<double, 5, 5> F = Eigen::Matrix<double, 5, 5>::Identity();
   F.block<2, 1>(1, 0) = turned * dt;

@@ -7,9 +7,6 @@
 namespace corridor::graph {
 namespace {
 
-// d R(-theta) v / d theta = -kTurn * R(-theta) v.
-const Eigen::Matrix2d kTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
-
 // Order (rad, m/s, m/s, m, m).
 const Eigen::Matrix<double, 5, 1> kImuFloor =
     (Eigen::Matrix<double, 5, 1>() << 1e-5, 1e-4, 1e-4, 1e-5, 1e-5).finished();
@@ -84,8 +81,8 @@ void ImuMotion::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> resi
   Eigen::Matrix<double, 5, 13> J = Eigen::Matrix<double, 5, 13>::Zero();
   // Columns: pose i 0-2, velocity i 3-4, bias i 5-7, pose j 8-10, velocity j 11-12.
   J(0, 2) = -1;
-  J.block<2, 1>(1, 2) = -kTurn * t.velocity_change;
-  J.block<2, 1>(3, 2) = -kTurn * t.displacement;
+  J.block<2, 1>(1, 2) = -perpendicular(t.velocity_change);
+  J.block<2, 1>(3, 2) = -perpendicular(t.displacement);
   J.block<2, 2>(3, 0) = -Eigen::Matrix2d::Identity();
   J.block<2, 2>(1, 3) = -t.R_i_transposed;
   J.block<2, 2>(3, 3) = -t.R_i_transposed * delta_.duration_s;
@@ -117,7 +114,7 @@ void WheelMotion::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> re
   Eigen::Matrix<double, 3, 7> J = Eigen::Matrix<double, 3, 7>::Zero();
   // Columns: pose i 0-2, pose j 3-5, scale 6.
   J.block<2, 2>(0, 0) = -Eigen::Matrix2d::Identity();
-  J.block<2, 1>(0, 2) = -kTurn * T_i_j.translation_m();
+  J.block<2, 1>(0, 2) = -perpendicular(T_i_j.translation_m());
   J(2, 2) = -1;
   J.block<2, 2>(0, 3) = T_i_j.rotation();
   J(2, 5) = 1;

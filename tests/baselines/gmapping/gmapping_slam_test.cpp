@@ -148,16 +148,6 @@ TEST(Gmapping, OfNoEventsHasAnEmptyEstimate) {
   EXPECT_TRUE(result.estimate.map->empty());
 }
 
-TEST(Gmapping, RefusesAScanThatIsNotLaterThanTheLast) {
-  const SensorLog log = testing::room_log({.num_scans = 2});
-  const auto slam = make_gmapping({}, log.robot, Rng(1), 1);
-  ASSERT_TRUE(slam->step(log.events[1]).has_value());
-  const Result<StepReport> repeated = slam->step(log.events[1]);
-  ASSERT_FALSE(repeated.has_value());
-  EXPECT_EQ(repeated.error().code, ErrorCode::kInvalid);
-  EXPECT_NE(repeated.error().to_line().find("scan 1"), std::string::npos);
-}
-
 TEST(Gmapping, ShrinksAFeaturelessCorridorAsTheOriginalDoes) {
   // 6 m along two parallel walls, range 4.5 m, perfect odometry: matches overlap most at rest.
   SensorLog log;

@@ -181,23 +181,6 @@ TEST(KartoSlam, ALogWithoutWheelsIsAnErrorThatSaysSo) {
   EXPECT_NE(estimate.error().to_line().find("no wheel odometry"), std::string::npos);
 }
 
-TEST(KartoSlam, AScanThatRepeatsAStampIsAnError) {
-  const auto system = make();
-  Rng rng(1);
-  const LaserScan scan = testing::scan_of(testing::room(), {}, 12, 0, rng);
-  ASSERT_TRUE(system->step(scan).has_value());
-  const auto again = system->step(scan);
-  ASSERT_FALSE(again.has_value());
-  EXPECT_NE(again.error().to_line().find("stamp"), std::string::npos);
-}
-
-TEST(KartoSlam, AScanOfUnequalArraysIsAnError) {
-  Rng rng(1);
-  LaserScan scan = testing::scan_of(testing::room(), {}, 12, 0, rng);
-  scan.is_valid.pop_back();
-  EXPECT_FALSE(make()->step(scan).has_value());
-}
-
 TEST(KartoParams, DefaultsAreValidAndASmearOutsideTheKernelsRangeIsNot) {
   EXPECT_TRUE(param_violations(KartoParams{}).empty());
   EXPECT_TRUE(param_violations(corrected_params()).empty());

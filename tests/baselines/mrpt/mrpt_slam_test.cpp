@@ -173,16 +173,5 @@ TEST(MrptSlam, OfNoEventsHasAnEmptyEstimate) {
   }
 }
 
-TEST(MrptSlam, RefusesAScanThatIsNotLaterThanTheLast) {
-  const SensorLog log = testing::room_log({.num_scans = 2});
-  for (const Factory& make : {Factory(icp), Factory(rbpf)}) {
-    const auto slam = make(log.robot);
-    ASSERT_TRUE(slam->step(log.events[1]).has_value());
-    const Result<StepReport> repeated = slam->step(log.events[1]);
-    ASSERT_FALSE(repeated.has_value());
-    EXPECT_EQ(repeated.error().code, ErrorCode::kInvalid);
-  }
-}
-
 }  // namespace
 }  // namespace corridor::mrpt

@@ -32,13 +32,16 @@ class Scripted final : public SlamSystem {
   }
 
   [[nodiscard]] std::string_view name() const override { return "scripted"; }
-  Result<StepReport> step(const SensorEvent& event) override { return on_step(event); }
+  Result<StepReport> on_event(const SensorEvent& event) override { return on_step(event); }
   Result<SlamEstimate> finish() override { return on_finish(); }
 };
 
 LaserScan scan_at(double time_s) {
   LaserScan scan;
   scan.stamp = timestamp_from_seconds(time_s);
+  scan.range_max_m = 10;
+  scan.ranges_m = {1};
+  scan.is_valid = {1};
   return scan;
 }
 
@@ -98,9 +101,11 @@ TEST(Drive, CallsAnErrorFailedAndSaysAtWhichEvent) {
   Drive run = drive(system, short_log());
   EXPECT_EQ(run.status, CaseStatus::kFailed);
   EXPECT_EQ(run.status_message, "event 2 at 1.500 s: wheels jumped");
-  system.on_step = [](const SensorEvent& event) { return Scripted::tracked(event, 0); };
-  system.on_finish = []() -> Result<SlamEstimate> { return fail(ErrorCode::kInternal, "no map"); };
-  run = drive(system, short_log());
+  Scripted without_map;
+  without_map.on_finish = []() -> Result<SlamEstimate> {
+    return fail(ErrorCode::kInternal, "no map");
+  };
+  run = drive(without_map, short_log());
   EXPECT_EQ(run.status, CaseStatus::kFailed);
   EXPECT_EQ(run.status_message, "finish: no map");
 }
