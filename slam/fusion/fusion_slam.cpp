@@ -1,16 +1,15 @@
 #include "slam/fusion/fusion_slam.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "slam/fusion/interval_factors.hpp"
 #include "slam/fusion/local_map.hpp"
 #include "slam/fusion/loop_closer.hpp"
+#include "slam/fusion/loop_edges.hpp"
 #include "slam/fusion/motion_predictor.hpp"
+#include "slam/fusion/scan_path.hpp"
 #include "slam/fusion/scan_tracker.hpp"
-#include "slam/graph/factors/pose_factors.hpp"
 #include "slam/graph/graph_source.hpp"
 #include "slam/motion/deskew.hpp"
 
@@ -19,13 +18,6 @@ namespace {
 
 // A prediction that contradicts this many scans in a row is itself the wrong one.
 constexpr int kMaxRefusedInARow = 3;
-
-// Where a scan lies on the key scan before it.
-struct ScanRecord {
-  Timestamp stamp;
-  std::uint32_t key;
-  Pose2 T_key_base;
-};
 
 class FusionSlam final : public SlamSystem, public graph::GraphSource {
  public:
@@ -37,6 +29,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
         predictor_(robot_, params_),
         local_map_(params_),
         loop_closer_(params_),
+        loop_edges_(params.loop_gate),
         wheel_noise_(params.max_wheel_noise_factor) {}
 
   std::string_view name() const override {
@@ -60,10 +53,9 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     if (key_scans_.empty()) return result;
     {
       const auto stage = stage_clock().enter(Stage::kOptimise);
-      last_report_ = back_end_->solve();
-      num_relinearized_ += last_report_.num_relinearized;
+      keep(back_end_->solve());
     }
-    result.trajectory = smoothed_trajectory();
+    result.trajectory = scan_path_.smoothed(key_scans_, estimate());
     {
       const auto stage = stage_clock().enter(Stage::kMapUpdate);
       std::vector<mapping::PosedScan> scans;
@@ -79,7 +71,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
  private:
   const graph::Values& estimate() const { return back_end_->estimate(); }
   std::uint32_t last_key() const { return static_cast<std::uint32_t>(key_scans_.size() - 1); }
-  const Eigen::Vector3d& last_bias() const { return estimate().bias(last_key()); }
+
+  void keep(backend::BackEndReport report) {
+    num_relinearized_ += report.num_relinearized;
+    last_report_ = std::move(report);
+  }
 
   // One scan: predict, match, and at key scans choose factors, solve, extend the map, close loops.
   StepReport on_scan(const LaserScan& scan) {
@@ -92,14 +88,14 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       start(scan, std::move(points));
       report.is_key_scan = true;
     } else {
-      const TrackedScan tracked = track(points, prediction);
+      const TrackedScan tracked = track(scan.stamp, points, prediction);
       if (is_key_scan(scan.stamp)) {
         add_key_scan(scan, std::move(points), tracked);
         close_loops();
         report.is_key_scan = true;
       }
     }
-    records_.push_back({scan.stamp, last_key(), estimate().pose(last_key()).between(T_map_base_)});
+    scan_path_.add(scan.stamp, last_key(), estimate().pose(last_key()).between(T_map_base_));
     last_scan_stamp_ = scan.stamp;
     if (!is_solved()) report.status = StepStatus::kLost;
     report.T_map_base = T_map_base_;
@@ -115,8 +111,17 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   Prediction predict(Timestamp stamp) {
     const auto stage = stage_clock().enter(Stage::kPredict);
-    const double scale = key_scans_.empty() ? 0 : estimate().wheel_scale(0);
-    return predictor_.predict(stamp, scale, wheel_noise_.factor());
+    MotionState state;
+    state.wheel_noise_factor = wheel_noise_.factor();
+    state.twist = twist_;
+    if (!key_scans_.empty()) state.wheel_scale = estimate().wheel_scale(0);
+    if (is_velocity_known_) state.velocity_mps = velocity_base_mps();
+    return predictor_.predict(stamp, state);
+  }
+
+  // Of the last key scan, in its own frame.
+  Eigen::Vector2d velocity_base_mps() const {
+    return estimate().pose(last_key()).rotation().transpose() * estimate().velocity(last_key());
   }
 
   std::vector<Eigen::Vector2d> preprocess(const LaserScan& scan, const Prediction& prediction) {
@@ -128,25 +133,31 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   }
 
   void start(const LaserScan& scan, std::vector<Eigen::Vector2d> points) {
-    has_imu_ = predictor_.has_imu();
-    if (!has_imu_) predictor_.ignore_imu();
     graph::Values values;
     values.set_pose(0, Pose2());
     values.set_wheel_scale(0, 0);
-    if (has_imu_) {
-      values.set_velocity(0, Eigen::Vector2d::Zero());
-      values.set_bias(0, Eigen::Vector3d::Zero());
-    }
     std::vector<graph::FactorPtr> factors;
-    add_first_factors(has_imu_, params_, factors);
-    last_report_ = back_end_->update(std::move(factors), values, {});
+    add_first_factors(params_, factors);
+    begin_imu_states(0, Eigen::Vector2d::Zero(), values, factors);
+    keep(back_end_->update(std::move(factors), values, {}));
     key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), 0});
     extend_map();
     begin_interval(scan.stamp);
     anchor_stamp_ = scan.stamp;
   }
 
-  TrackedScan track(std::span<const Eigen::Vector2d> points, const Prediction& prediction) {
+  // From the first key scan on that had a reading before it, the IMU has states.
+  void begin_imu_states(std::uint32_t key, const Eigen::Vector2d& velocity_map_mps,
+                        graph::Values& values, std::vector<graph::FactorPtr>& factors) {
+    if (has_imu_ || !predictor_.has_reading()) return;
+    has_imu_ = true;
+    values.set_velocity(key, velocity_map_mps);
+    values.set_bias(key, Eigen::Vector3d::Zero());
+    add_imu_priors(key, params_, factors);
+  }
+
+  TrackedScan track(Timestamp stamp, std::span<const Eigen::Vector2d> points,
+                    const Prediction& prediction) {
     const auto stage = stage_clock().enter(Stage::kMatch);
     Submap& submap = local_map_.active();
     const Pose2& T_map_submap = estimate().pose(submap.origin_key());
@@ -154,17 +165,22 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
         track_scan(submap, points, T_map_submap.between(T_map_base_), prediction, robot_, params_,
                    num_refused_in_a_row_ < kMaxRefusedInARow);
     num_refused_in_a_row_ = tracked.is_refused ? num_refused_in_a_row_ + 1 : 0;
-    const Pose2 before = T_map_base_;
+    const Pose2 T_last_now = T_map_base_.between(T_map_submap * tracked.T_submap_base);
     T_map_base_ = T_map_submap * tracked.T_submap_base;
-    path_m_ += (T_map_base_.translation_m() - before.translation_m()).norm();
-    if (tracked.chi2 && tracked.degrees_of_freedom > 0) {
-      is_wheel_jump_ =
-          is_wheel_jump_ || (tracked.degrees_of_freedom == 3 && *tracked.chi2 > params_.slip_gate);
-      if (params_.use_directional_degeneracy) {
-        wheel_noise_.observe(*tracked.chi2 / tracked.degrees_of_freedom);
-      }
-    }
+    path_m_ += T_last_now.translation_m().norm();
+    twist_ = T_last_now.log() / seconds_between(last_scan_stamp_, stamp);
+    watch_wheels(tracked);
     return tracked;
+  }
+
+  void watch_wheels(const TrackedScan& tracked) {
+    if (!tracked.wheel_chi2 || tracked.wheel_degrees_of_freedom == 0) return;
+    if (tracked.match->num_observable == 3 && *tracked.wheel_chi2 > params_.slip_gate) {
+      is_wheel_jump_ = true;
+    }
+    if (params_.use_directional_degeneracy) {
+      wheel_noise_.observe(*tracked.wheel_chi2 / tracked.wheel_degrees_of_freedom);
+    }
   }
 
   bool is_key_scan(Timestamp stamp) const {
@@ -187,11 +203,10 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     interval.tracked_T_i_j = estimate().pose(interval.i).between(T_map_base_);
     if (has_imu_) {
       interval.imu = predictor_.imu_interval();
-      interval.velocity_base_i_mps =
-          estimate().pose(interval.i).rotation().transpose() * estimate().velocity(interval.i);
+      interval.velocity_base_i_mps = velocity_base_mps();
     }
     interval.match = tracked.match;
-    interval.anchor = const_cast<LocalMap&>(local_map_).active().origin_key();
+    interval.anchor = local_map_.active().origin_key();
     interval.is_wheel_jump = is_wheel_jump_;
     interval.range_difference_m =
         mean_range_difference_m(before.scan, scan, interval.tracked_T_i_j.theta_rad());
@@ -207,20 +222,18 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     {
       const auto stage = stage_clock().enter(Stage::kGraph);
       const Interval interval = interval_to(scan, tracked);
+      is_velocity_known_ = is_velocity_known_ || interval.imu.has_value();
       std::vector<graph::FactorPtr> factors;
       verdict_ = add_interval_factors(interval, robot_, wheel_noise_.factor(), params_, factors);
       count_verdict();
-      arrivals_.push_back(estimate().pose(interval.i).between(T_map_base_));
-      const graph::Values values = initial_values(interval);
+      scan_path_.add_arrival(interval.tracked_T_i_j);
+      graph::Values values = initial_values(interval);
+      begin_imu_states(interval.j, T_map_base_.rotation() * twist_.head<2>(), values, factors);
       const auto optimise = stage_clock().enter(Stage::kOptimise);
-      last_report_ = back_end_->update(std::move(factors), values, {});
-      num_relinearized_ += last_report_.num_relinearized;
+      keep(back_end_->update(std::move(factors), values, {}));
       num_failed_solves_ += is_solved() ? 0 : 1;
     }
-    if (verdict_.are_wheels_used || !verdict_.is_degenerate) {
-      anchor_stamp_ = scan.stamp;
-      is_velocity_known_ = true;
-    }
+    if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
     key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), path_m_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
@@ -248,7 +261,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   void begin_interval(Timestamp stamp) {
     is_wheel_jump_ = false;
-    predictor_.reset_interval(stamp, has_imu_ ? last_bias() : Eigen::Vector3d::Zero());
+    predictor_.reset_interval(
+        stamp, has_imu_ ? estimate().bias(last_key()) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
   }
 
   void close_loops() {
@@ -257,60 +271,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     const std::vector<LoopClosure> closures =
         loop_closer_.search(key_scans_, local_map_, estimate(), robot_.lidar.range_sigma_m);
     if (closures.empty()) return;
-    std::vector<graph::FactorPtr> factors;
-    for (const LoopClosure& closure : closures) {
-      if (!closed_keys_.insert(closure.scan_key).second) continue;
-      factors.push_back(std::make_unique<graph::RelativePose>(
-          graph::pose_key(closure.submap_key), graph::pose_key(closure.scan_key),
-          closure.match.T_map_base, graph::square_root_information(closure.match.information)));
-    }
     const auto optimise = stage_clock().enter(Stage::kOptimise);
-    const backend::BackEndReport added = back_end_->update(std::move(factors), {}, {});
-    last_report_ = back_end_->solve();
-    num_relinearized_ += added.num_relinearized + last_report_.num_relinearized;
-    loop_ids_.insert(loop_ids_.end(), added.new_factor_ids.begin(), added.new_factor_ids.end());
-    num_loops_ += static_cast<int>(added.new_factor_ids.size());
-    remove_bad_loops();
-    const auto& ids = added.new_factor_ids;
-    const bool is_any_left = std::any_of(ids.begin(), ids.end(), [&](graph::FactorId id) {
-      return back_end_->graph().contains(id);
-    });
-    if (is_any_left) loop_closer_.on_accepted(path_m_);
+    LoopEdges::Outcome outcome = loop_edges_.add(closures, *back_end_);
+    for (backend::BackEndReport& report : outcome.solves) keep(std::move(report));
+    if (outcome.is_any_kept) loop_closer_.on_accepted(path_m_);
     T_map_base_ = estimate().pose(last_key());
-  }
-
-  // A closure that still disagrees with the rest after solving was a false one.
-  void remove_bad_loops() {
-    std::vector<graph::FactorId> bad;
-    for (const graph::FactorId id : loop_ids_) {
-      if (back_end_->graph().factor(id).chi2(estimate()) > params_.loop_gate) bad.push_back(id);
-    }
-    if (bad.empty()) return;
-    std::erase_if(loop_ids_, [&](graph::FactorId id) {
-      return std::find(bad.begin(), bad.end(), id) != bad.end();
-    });
-    num_removed_loops_ += static_cast<int>(bad.size());
-    last_report_ = back_end_->update({}, {}, bad);
-    last_report_ = back_end_->solve();
-  }
-
-  // Scans between two key scans share the correction of both, in proportion to time.
-  Trajectory smoothed_trajectory() const {
-    Trajectory trajectory;
-    for (const ScanRecord& record : records_) {
-      Pose2 T_map_base = estimate().pose(record.key) * record.T_key_base;
-      if (record.key < arrivals_.size()) {
-        const Timestamp begin = key_scans_[record.key].scan.stamp;
-        const Timestamp end = key_scans_[record.key + 1].scan.stamp;
-        const double ratio = seconds_between(begin, record.stamp) / seconds_between(begin, end);
-        const Pose2 final_step =
-            estimate().pose(record.key).between(estimate().pose(record.key + 1));
-        const Pose2::Tangent change = (arrivals_[record.key].inverse() * final_step).log();
-        T_map_base = T_map_base * Pose2::exp(ratio * change);
-      }
-      (void)trajectory.append({record.stamp, T_map_base, std::nullopt});
-    }
-    return trajectory;
   }
 
   void count_verdict() {
@@ -325,8 +290,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     counters["key_scans"] = static_cast<double>(key_scans_.size());
     counters["submaps"] = static_cast<double>(local_map_.num_submaps());
     counters["loop_candidates"] = loop_closer_.num_candidates();
-    counters["loop_closures"] = num_loops_;
-    counters["loop_closures_removed"] = num_removed_loops_;
+    counters["loop_closures"] = loop_edges_.num_added();
+    counters["loop_closures_removed"] = loop_edges_.num_removed();
     counters["slip_intervals"] = num_slips_;
     counters["degenerate_intervals"] = num_degenerate_;
     counters["least_bad_kept"] = num_least_bad_;
@@ -344,25 +309,23 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   MotionPredictor predictor_;
   LocalMap local_map_;
   LoopCloser loop_closer_;
+  LoopEdges loop_edges_;
+  ScanPath scan_path_;
   WheelNoiseAdapter wheel_noise_;
 
-  bool has_imu_ = false;  // decided at the first scan
+  bool has_imu_ = false;  // the last key scan has states of the IMU
   std::vector<KeyScan> key_scans_;
-  std::vector<Pose2> arrivals_;  // per key scan: T_key_next as tracked, before solving
-  std::vector<ScanRecord> records_;
   Pose2 T_map_base_;
+  Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  // between the last two scans, per second
   double path_m_ = 0;
   Timestamp last_scan_stamp_;
   Timestamp anchor_stamp_;  // when wheels or LiDAR last fixed the motion
   bool is_wheel_jump_ = false;
-  bool is_velocity_known_ = false;  // wheels or LiDAR measured it at least once
+  bool is_velocity_known_ = false;  // an interval with IMU has been solved
   int num_refused_in_a_row_ = 0;
   IntervalVerdict verdict_;
-  std::vector<graph::FactorId> loop_ids_;
-  std::set<std::uint32_t> closed_keys_;
   backend::BackEndReport last_report_;
-  int num_loops_ = 0, num_removed_loops_ = 0, num_slips_ = 0, num_degenerate_ = 0;
-  int num_least_bad_ = 0, num_failed_solves_ = 0;
+  int num_slips_ = 0, num_degenerate_ = 0, num_least_bad_ = 0, num_failed_solves_ = 0;
   std::int64_t num_relinearized_ = 0;
 };
 

@@ -172,19 +172,22 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
   return verdict;
 }
 
-void add_first_factors(bool has_imu, const FusionParams& params, std::vector<FactorPtr>& factors) {
+void add_first_factors(const FusionParams& params, std::vector<FactorPtr>& factors) {
   factors.push_back(std::make_unique<graph::PosePrior>(graph::pose_key(0), Pose2(),
                                                        Eigen::Matrix3d::Identity() / kGaugeSigma));
   const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : 1e-6;
   factors.push_back(
       std::make_unique<graph::VectorPrior>(graph::wheel_scale_key(0), Eigen::VectorXd::Zero(1),
                                            Eigen::VectorXd::Constant(1, scale_sigma)));
-  if (!has_imu) return;
+}
+
+void add_imu_priors(std::uint32_t key, const FusionParams& params,
+                    std::vector<FactorPtr>& factors) {
   factors.push_back(std::make_unique<graph::VectorPrior>(
-      graph::velocity_key(0), Eigen::VectorXd::Zero(2),
+      graph::velocity_key(key), Eigen::VectorXd::Zero(2),
       Eigen::VectorXd::Constant(2, params.initial_velocity_sigma_mps)));
   factors.push_back(std::make_unique<graph::VectorPrior>(
-      graph::bias_key(0), Eigen::VectorXd::Zero(3),
+      graph::bias_key(key), Eigen::VectorXd::Zero(3),
       Eigen::Vector3d(params.gyro_bias_sigma_radps, params.accel_bias_sigma_mps2,
                       params.accel_bias_sigma_mps2)));
 }

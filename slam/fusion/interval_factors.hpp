@@ -44,9 +44,12 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
                                      double wheel_noise_factor, const FusionParams& params,
                                      std::vector<graph::FactorPtr>& factors);
 
-// The factors that fix the gauge and start the biases, at key scan 0 and T_map_base = identity.
-void add_first_factors(bool has_imu, const FusionParams& params,
-                       std::vector<graph::FactorPtr>& factors);
+// The factors that fix the gauge, key scan 0 at T_map_base = identity, and start the wheels' scale.
+void add_first_factors(const FusionParams& params, std::vector<graph::FactorPtr>& factors);
+
+// Priors on the velocity and the biases of the key scan at which the IMU's states begin.
+void add_imu_priors(std::uint32_t key, const FusionParams& params,
+                    std::vector<graph::FactorPtr>& factors);
 
 // Covariance of the change of the bias over a time, as a standard deviation per component.
 Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s);

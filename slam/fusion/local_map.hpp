@@ -20,6 +20,7 @@ class LocalMap {
               std::span<const Eigen::Vector2d> points_base_m);
   // The submap new scans are matched against. Requires one insert().
   [[nodiscard]] Submap& active() { return *submaps_[active_]; }
+  [[nodiscard]] const Submap& active() const { return *submaps_[active_]; }
   // Finished ones, oldest first.
   [[nodiscard]] std::span<const std::unique_ptr<Submap>> finished() const {
     return {submaps_.data(), active_};

@@ -5,12 +5,12 @@
 namespace corridor::fusion {
 namespace {
 
-// Without wheels nothing is known of the translation between two scans but that it is short.
+// A motion between two scans that wheels and gyro did not measure may be off by this much.
 constexpr double kUnknownTranslation_m = 0.2;
 constexpr double kUnknownRotation_rad = 0.2;
-// Error of the gyro's rotation between two scans beside its noise: bias and scale.
 // A reading stands for no longer than this; beyond it the motion went unmeasured.
 constexpr double kMaxHold_s = 0.3;
+// Error of the gyro's rotation between two scans beside its noise: bias and scale.
 constexpr double kGyroFloor_rad = 5e-4;
 constexpr double kGyroScaleRatio = 0.01;
 
@@ -28,44 +28,63 @@ void MotionPredictor::integrate_until(Timestamp stamp) {
 }
 
 void MotionPredictor::add(const ImuSample& sample) {
-  if (is_imu_ignored_) return;
   // A reading stands for the time since the one before it.
   last_imu_ = sample;
   integrate_until(sample.stamp);
 }
 
-Prediction MotionPredictor::predict(Timestamp stamp, double wheel_scale, double noise_factor) {
+Pose2 MotionPredictor::imu_motion(const motion::ImuDelta& since_begin,
+                                  const Eigen::Vector2d& velocity_mps) const {
+  const Eigen::Vector2d moved = velocity_mps * since_begin.duration_s + since_begin.position_m;
+  return {moved.x(), moved.y(), since_begin.theta_rad};
+}
+
+Pose2 MotionPredictor::motion_without_wheels(Timestamp stamp, const MotionState& state) const {
+  if (has_imu() && state.velocity_mps && imu_.delta().unmeasured_s == 0) {
+    return imu_motion(last_imu_delta_, *state.velocity_mps)
+        .between(imu_motion(imu_.delta(), *state.velocity_mps));
+  }
+  return last_stamp_ ? Pose2::exp(state.twist * seconds_between(*last_stamp_, stamp)) : Pose2();
+}
+
+Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
   integrate_until(stamp);
   Prediction prediction;
   const std::optional<Pose2> wheel_pose = wheels_.pose_at(stamp);
-  Pose2 wheel_motion;
   WheelNoise noise{kUnknownTranslation_m, kUnknownRotation_rad};
+  Pose2 motion;
   if (wheel_pose && last_wheel_T_odom_base_) {
     prediction.has_wheels = true;
-    wheel_motion = last_wheel_T_odom_base_->between(*wheel_pose);
-    noise = nominal_wheel_noise(wheel_motion, robot_.wheels, params_);
-    noise.translation_sigma_m *= noise_factor;
-    noise.rotation_sigma_rad *= noise_factor;
+    const Pose2 measured = last_wheel_T_odom_base_->between(*wheel_pose);
+    noise = nominal_wheel_noise(measured, robot_.wheels, params_);
+    noise.translation_sigma_m *= state.wheel_noise_factor;
+    noise.rotation_sigma_rad *= state.wheel_noise_factor;
+    motion = {(1 + state.wheel_scale) * measured.x_m(), (1 + state.wheel_scale) * measured.y_m(),
+              measured.theta_rad()};
+  } else {
+    motion = motion_without_wheels(stamp, state);
   }
-  double turn_rad = wheel_motion.theta_rad();
   const bool is_gyro_whole = imu_.delta().unmeasured_s == 0;
   if (has_imu() && (is_gyro_whole || !prediction.has_wheels)) {
-    turn_rad = imu_.delta().theta_rad - last_imu_theta_rad_;
+    prediction.is_turn_by_gyro = true;
+    const double turn_rad = imu_.delta().theta_rad - last_imu_delta_.theta_rad;
     noise.rotation_sigma_rad = kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad) +
                                (is_gyro_whole ? 0 : kUnknownRotation_rad);
+    motion = {motion.x_m(), motion.y_m(), turn_rad};
   }
-  last_imu_theta_rad_ = imu_.delta().theta_rad;
+  last_imu_delta_ = imu_.delta();
   last_wheel_T_odom_base_ = wheel_pose;
-  prediction.T_last_now = Pose2((1 + wheel_scale) * wheel_motion.x_m(),
-                                (1 + wheel_scale) * wheel_motion.y_m(), turn_rad);
+  last_stamp_ = stamp;
+  prediction.T_last_now = motion;
   prediction.covariance = noise.covariance();
   return prediction;
 }
 
 void MotionPredictor::reset_interval(Timestamp stamp, const Eigen::Vector3d& bias) {
+  is_imu_in_use_ = last_imu_.has_value();
   integrate_until(stamp);
   imu_.reset(bias);
-  last_imu_theta_rad_ = 0;
+  last_imu_delta_ = imu_.delta();
 }
 
 std::optional<motion::ImuDelta> MotionPredictor::imu_interval() const {

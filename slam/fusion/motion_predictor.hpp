@@ -1,6 +1,6 @@
 // Caches wheels and IMU and tells how the robot moved between two scans: translation from the
-// wheels (with the estimated scale), rotation from the bias-corrected gyro, or from the wheels
-// without one.
+// wheels (with the estimated scale), rotation from the bias-corrected gyro. Where the wheels are
+// silent the IMU carries the estimated velocity on, where both are, the last motion goes on.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +20,17 @@ struct Prediction {
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  // 3x3, order (x_m, y_m, theta_rad), base now
   bool has_wheels = false;
+  bool is_turn_by_gyro = false;
+};
+
+// What the estimator knows when it asks for a prediction.
+struct MotionState {
+  double wheel_scale = 0;         // estimated error: true motion is (1 + wheel_scale) * measured
+  double wheel_noise_factor = 1;  // on the wheels' standard deviations
+  // Of the base where the key interval began, in the base frame there; none while unknown.
+  std::optional<Eigen::Vector2d> velocity_mps;
+  // Mean motion between the last two scans per second, (m/s, m/s, rad/s), base frame.
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
 };
 
 class MotionPredictor {
@@ -29,15 +40,14 @@ class MotionPredictor {
   void add(const WheelSample& sample) { wheels_.add(sample); }
   void add(const ImuSample& sample);
 
-  // For a log whose IMU starts too late to be a state from the beginning.
-  void ignore_imu() { is_imu_ignored_ = true; }
-  [[nodiscard]] bool has_imu() const { return last_imu_.has_value(); }
+  [[nodiscard]] bool has_reading() const { return last_imu_.has_value(); }
+  // The IMU is used from the first key interval on that began with a reading.
+  [[nodiscard]] bool has_imu() const { return is_imu_in_use_; }
   [[nodiscard]] std::optional<Pose2> wheel_pose_at(Timestamp stamp) const {
     return wheels_.pose_at(stamp);
   }
-  // Motion since the last call (or reset_interval); integrates the IMU up to the stamp.
-  // noise_factor multiplies the wheels' standard deviations.
-  Prediction predict(Timestamp stamp, double wheel_scale, double noise_factor);
+  // Motion since the last call; integrates the IMU up to the stamp.
+  Prediction predict(Timestamp stamp, const MotionState& state);
   // Starts a new key interval at `stamp` with these biases.
   void reset_interval(Timestamp stamp, const Eigen::Vector3d& bias);
   // The IMU since reset_interval; nullopt without IMU or when nothing was integrated.
@@ -45,6 +55,10 @@ class MotionPredictor {
 
  private:
   void integrate_until(Timestamp stamp);
+  // By IMU and velocity or by the last twist, whichever there is.
+  [[nodiscard]] Pose2 motion_without_wheels(Timestamp stamp, const MotionState& state) const;
+  [[nodiscard]] Pose2 imu_motion(const motion::ImuDelta& since_begin,
+                                 const Eigen::Vector2d& velocity_mps) const;
 
   const RobotModel& robot_;
   const FusionParams& params_;
@@ -53,8 +67,9 @@ class MotionPredictor {
   std::optional<ImuSample> last_imu_;
   std::optional<Timestamp> integrated_until_;
   std::optional<Pose2> last_wheel_T_odom_base_;
-  double last_imu_theta_rad_ = 0;
-  bool is_imu_ignored_ = false;
+  std::optional<Timestamp> last_stamp_;
+  motion::ImuDelta last_imu_delta_;  // of the running interval, at the last scan
+  bool is_imu_in_use_ = false;
 };
 
 }  // namespace corridor::fusion

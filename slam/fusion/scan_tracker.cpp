@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace corridor::fusion {
 namespace {
@@ -27,6 +28,8 @@ Eigen::Matrix3d loose_information(const Prediction& prediction, const FusionPara
   const Eigen::Vector3d least(translation_m2, translation_m2, rotation_rad2);
   return prediction.covariance.diagonal().cwiseMax(least).cwiseInverse().asDiagonal();
 }
+
+constexpr double kAnyTurn_rad2 = 10;
 
 struct Fused {
   Pose2 T_submap_base;
@@ -66,8 +69,15 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
   covariance.diagonal() += last_match.cwiseAbs2();
   Fused fused = fuse(T_predicted, *tracked.match, covariance);
   if (prediction.has_wheels) {
-    tracked.chi2 = fused.chi2;
-    tracked.degrees_of_freedom = tracked.match->num_observable;
+    tracked.wheel_chi2 = fused.chi2;
+    tracked.wheel_degrees_of_freedom = tracked.match->num_observable;
+    if (prediction.is_turn_by_gyro) {
+      // A turn of any size costs nothing: what remains is the wheels' own error.
+      Eigen::Matrix3d free_turn = covariance;
+      free_turn(2, 2) += kAnyTurn_rad2;
+      tracked.wheel_chi2 = fuse(T_predicted, *tracked.match, free_turn).chi2;
+      tracked.wheel_degrees_of_freedom = std::max(tracked.match->num_observable - 1, 0);
+    }
   }
   const bool is_jump = params.use_statistical_slip_test && fused.chi2 > params.slip_gate;
   if (is_jump && may_refuse && match.inlier_ratio < params.jump_inlier_ratio) {

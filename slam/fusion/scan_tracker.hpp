@@ -17,10 +17,10 @@ namespace corridor::fusion {
 struct TrackedScan {
   Pose2 T_submap_base;                             // scan and prediction together
   std::optional<matching::ObservableMatch> match;  // the scan's own say; none if it did not fit
-  // Chi-square of the LiDAR against the prediction along the directions the scan sees, and their
-  // number; only where the prediction came from wheels.
-  std::optional<double> chi2;
-  int degrees_of_freedom = 0;
+  // Chi-square of the LiDAR against what the wheels predicted along the directions the scan sees,
+  // and their number; without the turn where that came from the gyro. Only with wheels.
+  std::optional<double> wheel_chi2;
+  int wheel_degrees_of_freedom = 0;
   bool is_refused = false;  // it contradicted the prediction and explained too little of the scan
 };
 

@@ -99,6 +99,46 @@ TEST(FusionSlam, GivesTheSameBytesTwice) {
   EXPECT_EQ(bytes_of(run({}, log).estimate.trajectory), bytes_of(run({}, log).estimate.trajectory));
 }
 
+// The log without the readings of one sensor between two times after its begin.
+template <class Reading>
+SensorLog without(const SensorLog& log, double from_s, double to_s) {
+  SensorLog result = log;
+  const Timestamp begin = stamp_of(log.events.front());
+  std::erase_if(result.events, [&](const SensorEvent& event) {
+    const double time_s = seconds_between(begin, stamp_of(event));
+    return std::holds_alternative<Reading>(event) && time_s >= from_s && time_s < to_s;
+  });
+  return result;
+}
+
+TEST(FusionSlam, UsesAnImuThatStartsAfterTheFirstScan) {
+  const SensorLog log = corridor_log("paper-corridor-slip", 902);
+  const Outcome late = run({}, without<ImuSample>(log, 0, 3));
+  const Outcome never = run({}, without<ImuSample>(log, 0, 1e6));
+  EXPECT_EQ(late.estimate.counters.at("imu_used"), 1);
+  EXPECT_EQ(never.estimate.counters.at("imu_used"), 0);
+  EXPECT_GT(late.num_slips, 5);
+  const double late_m = position_rmse_m(late.estimate.trajectory, *log.truth);
+  EXPECT_LT(late_m, kCorridorTolerance_m);
+  EXPECT_LT(late_m, position_rmse_m(never.estimate.trajectory, *log.truth));
+}
+
+TEST(FusionSlam, DrivesOnByTheImuWhereTheWheelsFallSilentInACorridor) {
+  const SensorLog log = corridor_log("paper-corridor", 904);
+  const SensorLog silent = without<WheelSample>(log, 20, 22);
+  ASSERT_LT(silent.events.size(), log.events.size());
+  const Outcome result = run({}, silent);
+  EXPECT_LT(position_rmse_m(result.estimate.trajectory, *log.truth), kCorridorTolerance_m);
+  EXPECT_LT(position_rmse_m(result.online, *log.truth), kCorridorTolerance_m);
+}
+
+TEST(FusionSlam, SurvivesAnImuThatStops) {
+  const SensorLog log = corridor_log("paper-corridor", 904);
+  const Outcome result = run({}, without<ImuSample>(log, 20, 1e6));
+  EXPECT_EQ(result.estimate.counters.at("failed_solves"), 0);
+  EXPECT_LT(position_rmse_m(result.estimate.trajectory, *log.truth), 0.5);
+}
+
 SensorLog room_log(bool has_wheels, bool has_imu, int num_scans) {
   SensorLog log;
   Rng rng(12);

@@ -1,0 +1,99 @@
+#include "slam/fusion/motion_predictor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace corridor::fusion {
+namespace {
+
+Timestamp at(double time_s) { return timestamp_from_seconds(time_s); }
+
+// Predicts at 0 and tells the prediction at 0.2 s.
+class MotionPredictorTest : public ::testing::Test {
+ protected:
+  void add_wheels(double from_s, double to_s, double speed_mps) {
+    for (double t = from_s; t < to_s + 1e-9; t += 0.05) {
+      predictor_.add(WheelSample{at(t), Pose2(speed_mps * t, 0, 0), std::nullopt});
+    }
+  }
+  void add_imu(double from_s, double to_s, double rate_radps, double acceleration_mps2) {
+    for (double t = from_s; t < to_s + 1e-9; t += 0.01) {
+      predictor_.add(ImuSample{at(t), rate_radps, acceleration_mps2, 0});
+    }
+  }
+  void start() {
+    (void)predictor_.predict(at(0), {});
+    predictor_.reset_interval(at(0), Eigen::Vector3d::Zero());
+  }
+
+  RobotModel robot_;
+  FusionParams params_;
+  MotionPredictor predictor_{robot_, params_};
+};
+
+TEST_F(MotionPredictorTest, TakesTheTranslationFromTheWheelsAndTheTurnFromTheGyro) {
+  add_imu(-0.1, 0, 0, 0);
+  add_wheels(-0.1, 0, 0.5);
+  start();
+  add_imu(0.01, 0.2, 0.3, 0);
+  add_wheels(0.05, 0.2, 0.5);
+  MotionState state;
+  state.wheel_scale = 0.1;
+  const Prediction prediction = predictor_.predict(at(0.2), state);
+  EXPECT_TRUE(prediction.has_wheels);
+  EXPECT_TRUE(prediction.is_turn_by_gyro);
+  EXPECT_NEAR(prediction.T_last_now.x_m(), 1.1 * 0.1, 1e-9);
+  EXPECT_NEAR(prediction.T_last_now.theta_rad(), 0.06, 1e-9);
+}
+
+TEST_F(MotionPredictorTest, CarriesTheVelocityOnByTheImuWhereTheWheelsAreSilent) {
+  add_imu(-0.1, 0, 0, 0);
+  start();
+  add_imu(0.01, 0.2, 0, 0.5);
+  MotionState state;
+  state.velocity_mps = Eigen::Vector2d(1, 0);
+  Prediction prediction = predictor_.predict(at(0.2), state);
+  EXPECT_FALSE(prediction.has_wheels);
+  EXPECT_NEAR(prediction.T_last_now.x_m(), 0.2 + 0.5 * 0.5 * 0.04, 1e-9);
+  // The second scan of the interval starts faster: the velocity gained so far counts.
+  add_imu(0.21, 0.4, 0, 0.5);
+  prediction = predictor_.predict(at(0.4), state);
+  EXPECT_NEAR(prediction.T_last_now.x_m(), 0.2 + 0.5 * 0.5 * (0.16 - 0.04), 1e-9);
+  EXPECT_GT(prediction.covariance(0, 0), 0.01);
+}
+
+TEST_F(MotionPredictorTest, GoesOnWithTheLastMotionWithoutWheelsAndImu) {
+  start();
+  MotionState state;
+  state.twist = {0.5, 0, 1.0};
+  const Prediction prediction = predictor_.predict(at(0.2), state);
+  EXPECT_LT((prediction.T_last_now.log() - 0.2 * state.twist).norm(), 1e-12);
+  EXPECT_FALSE(prediction.is_turn_by_gyro);
+}
+
+TEST_F(MotionPredictorTest, GoesOnWithTheLastMotionInTheIntervalInWhichTheWheelsComeBack) {
+  start();
+  add_wheels(0.2, 0.4, 5.0);
+  MotionState state;
+  state.twist = {0.5, 0, 0};
+  EXPECT_NEAR(predictor_.predict(at(0.2), state).T_last_now.x_m(), 0.1, 1e-12);
+  EXPECT_NEAR(predictor_.predict(at(0.4), state).T_last_now.x_m(), 1.0, 1e-9);
+}
+
+TEST_F(MotionPredictorTest, DoesNotUseTheImuInTheIntervalInWhichItStarts) {
+  add_wheels(-0.1, 0, 0);
+  start();
+  add_wheels(0.05, 0.4, 0);
+  add_imu(0.1, 0.2, 1.0, 0);
+  EXPECT_TRUE(predictor_.has_reading());
+  EXPECT_FALSE(predictor_.has_imu());
+  EXPECT_FALSE(predictor_.imu_interval().has_value());
+  EXPECT_FALSE(predictor_.predict(at(0.2), {}).is_turn_by_gyro);
+  predictor_.reset_interval(at(0.2), Eigen::Vector3d::Zero());
+  EXPECT_TRUE(predictor_.has_imu());
+  add_imu(0.21, 0.4, 1.0, 0);
+  EXPECT_NEAR(predictor_.predict(at(0.4), {}).T_last_now.theta_rad(), 0.2, 1e-9);
+  EXPECT_NEAR(predictor_.imu_interval()->duration_s, 0.2, 1e-9);
+}
+
+}  // namespace
+}  // namespace corridor::fusion
