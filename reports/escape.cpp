@@ -185,7 +185,7 @@ std::string escape_markdown(std::string_view text) {
 }
 
 std::string escape_csv(std::string_view text) {
-  const std::string valid = valid_utf8(text);
+  std::string valid = valid_utf8(text);
   if (valid.find_first_of(",\"\n") == std::string::npos) return valid;
   std::string result = "\"";
   for (const char character : valid) {

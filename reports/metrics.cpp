@@ -7,7 +7,6 @@
 namespace corridor::reports {
 namespace {
 
-using results::KeyAngle;
 using results::KeyDistance;
 using results::KeyDistances;
 using results::RunResult;

@@ -1,8 +1,10 @@
 // Table 1 of the paper and the errors behind it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
+#include <string_view>
 
 #include "reports/metrics.hpp"
 #include "reports/published.hpp"
@@ -23,6 +25,8 @@ constexpr std::array kMapKinds = {MapKind::kOwn, MapKind::kRendered};
 constexpr std::array<std::string_view, 4> kPaperSystems = {"karto", "fusion-paper", "fusion",
                                                            "gmapping"};
 
+constexpr std::string_view kMrptPrefix = "mrpt-";
+
 std::string map_name(MapKind kind) { return kind == MapKind::kOwn ? "own" : "common mapper"; }
 
 std::vector<Series> table1_series(const Cases& cases) {
@@ -40,12 +44,20 @@ Cell true_cell(const std::set<double>& values, int decimals) {
   return fmt::format("{:.{}f} to {:.{}f}", *values.begin(), decimals, *values.rbegin(), decimals);
 }
 
-// Marks the best of the estimates in `cells`, from `first` on, by the errors behind them.
-void mark_best(std::vector<Cell>& cells, std::size_t first,
-               const std::vector<WorldValues>& errors) {
-  const auto best = clearly_smallest(errors);
-  if (!best) return;
-  if (auto* estimate = std::get_if<Estimate>(&cells[first + *best])) estimate->is_best = true;
+void mark_best(Cell& cell) {
+  if (auto* estimate = std::get_if<Estimate>(&cell)) estimate->is_best = true;
+}
+
+// What MRPT's maps lack, where they are among the maps.
+void append_map_note(const Cases& cases, Table& table) {
+  for (const Series& series : cases.series()) {
+    if (!series.system.starts_with(kMrptPrefix)) continue;
+    table.notes.emplace_back(
+        "MRPT's own maps keep no hit counts: their walls are fitted to occupied cells weighted by "
+        "occupancy, the others' to hits, so their own-map distances are coarser. On the common "
+        "mapper's maps all are measured alike.");
+    return;
+  }
 }
 
 std::vector<Cell> table1_row(const Cases& cases, const std::string& dataset, MapKind kind,
@@ -64,12 +76,21 @@ std::vector<Cell> table1_row(const Cases& cases, const std::string& dataset, Map
                            paper_cell(published.karto),
                            paper_cell(published.proposed)};
   const std::size_t first = row.size();
-  std::vector<WorldValues> errors;
-  for (const Series& series : table1_series(cases)) {
+  const std::vector<Series> shown = table1_series(cases);
+  for (const Series& series : shown) {
     row.push_back(summarise(cases, dataset, series, measured, "not measurable"));
+  }
+  // The best of all is marked, also of those that this table has no column for.
+  const std::vector<Series> all = cases.series();
+  std::vector<WorldValues> errors;
+  for (const Series& series : all) {
     errors.push_back(world_values(cases, dataset, series, key_absolute_error(variable, kind)));
   }
-  mark_best(row, first, errors);
+  if (const auto best = clearly_smallest(errors)) {
+    const auto found = std::find(shown.begin(), shown.end(), all[*best]);
+    if (found != shown.end())
+      mark_best(row[first + static_cast<std::size_t>(found - shown.begin())]);
+  }
   return row;
 }
 
@@ -83,14 +104,14 @@ Table key_distance_table(const Cases& cases) {
   Table table;
   table.id = "table1";
   table.caption =
-      "Table 1. Key distances of the map: median over worlds [95 % bootstrap interval of the "
-      "median] (worlds in which it was measurable / worlds tried)";
+      "Table 1. Key distances of the map: median over the worlds in which it was measurable, and "
+      "only those [95 % bootstrap interval of the median] (measurable / worlds tried)";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
                    {"variable", "variable", ColumnKind::kText},
                    {"map", "map", ColumnKind::kText},
                    {"true", "true", ColumnKind::kNumber},
-                   {"Karto, in the paper", "paper_karto", ColumnKind::kNumber},
-                   {"proposed, in the paper", "paper_proposed", ColumnKind::kNumber}};
+                   {"Karto, in the paper", "paper_karto", ColumnKind::kNumber, true},
+                   {"proposed, in the paper", "paper_proposed", ColumnKind::kNumber, true}};
   for (const Series& series : table1_series(cases)) {
     table.columns.push_back({cases.label(series), cases.label(series), ColumnKind::kEstimate});
   }
@@ -105,10 +126,18 @@ Table key_distance_table(const Cases& cases) {
   table.notes = {
       "own: the map that the system handed in. common mapper: one mapper for all, fed with the "
       "scans and the system's final trajectory, so that only the trajectory differs.",
-      "The paper gives no values of a, b, c and alpha for GMapping. Its values are from one run.",
-      "Bold: |measured - true| is smaller than every other system's, world by world, with the "
-      "whole "
-      "95 % interval of the paired ratio below 1."};
+      "Bold: |measured - true|, compared world by world with each other system's (also those of "
+      "the "
+      "table of errors), has the whole 95 % interval of the median ratio below 1. Not corrected "
+      "for "
+      "the number of comparisons."};
+  const std::vector<std::string> datasets = cases.datasets();
+  if (std::any_of(datasets.begin(), datasets.end(),
+                  [&](const std::string& dataset) { return is_paper_world(cases, dataset); })) {
+    table.notes.emplace_back(
+        "The paper gives no values of a, b, c and alpha for GMapping. Its values are from one "
+        "run.");
+  }
   return table;
 }
 
@@ -117,8 +146,9 @@ Table key_distance_error_table(const Cases& cases) {
   table.id = "table1-errors";
   table.is_detail = true;
   table.caption =
-      "Errors of the key distances, |measured - true|: median over worlds [95 % bootstrap "
-      "interval of the median] (worlds in which it was measurable / worlds tried)";
+      "Errors of the key distances, |measured - true|: median over the worlds in which it was "
+      "measurable, and only those [95 % bootstrap interval of the median] (measurable / worlds "
+      "tried)";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
                    {"map", "map", ColumnKind::kText},
                    {"system", "system", ColumnKind::kText}};
@@ -143,13 +173,14 @@ Table key_distance_error_table(const Cases& cases) {
           cells.push_back(summarise(cases, dataset, series, metric, "not measurable"));
           errors.push_back(world_values(cases, dataset, series, metric));
         }
-        mark_best(cells, 0, errors);
+        if (const auto best = clearly_smallest(errors)) mark_best(cells[*best]);
         for (std::size_t index = 0; index < all.size(); ++index) {
           table.rows[first_row + index].push_back(cells[index]);
         }
       }
     }
   }
+  append_map_note(cases, table);
   return table;
 }
 

@@ -12,7 +12,8 @@ namespace corridor::tables {
 // The true values of a key distance over all cases of a data set.
 std::set<double> true_values(const reports::Cases& cases, const std::string& dataset,
                              reports::KeyVariable variable);
-// All four key distances are the paper's in every world.
+// All four key distances are the paper's in every world, and the suite itself simulated it: a log
+// of one's own has no data seed, whatever lies beside it.
 bool is_paper_world(const reports::Cases& cases, const std::string& dataset);
 
 }  // namespace corridor::tables

@@ -17,7 +17,7 @@ Table key_distance_error_table(const reports::Cases& cases);
 // Position and angle error, final and online, beside the paper's table 2; data sets with true
 // poses.
 Table trajectory_error_table(const reports::Cases& cases);
-// Paired factors: every system's position error divided by a rival's, world by world.
+// Paired factors: position and angle error divided by another's, world by world; each pair once.
 Table comparison_table(const reports::Cases& cases);
 // Errors of relations set up by hand, beside published figures; recorded data.
 Table relation_table(const reports::Cases& cases);

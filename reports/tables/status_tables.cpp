@@ -21,6 +21,9 @@ constexpr std::array kStatuses = {
     CaseStatus::kOk,      CaseStatus::kPartial,     CaseStatus::kDiverged, CaseStatus::kFailed,
     CaseStatus::kTimeout, CaseStatus::kOutOfMemory, CaseStatus::kBadInput};
 
+// More are folded: the table of outcomes above counts them.
+constexpr std::size_t kMaxOpenFailures = 6;
+
 Cell optional_count(const std::optional<std::int64_t>& count) {
   if (count) return Number{static_cast<double>(*count), 0};
   return Missing{"not measured"};
@@ -50,7 +53,6 @@ std::string systems_without(const Cases& cases, const std::string& dataset, cons
 Table outcome_table(const Cases& cases) {
   Table table;
   table.id = "outcomes";
-  table.is_detail = true;
   table.caption = "How the cases ended: number of cases";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
                    {"system", "system", ColumnKind::kText},
@@ -103,6 +105,7 @@ Table failure_table(const Cases& cases) {
                           optional_count(result.poses_matched),
                           optional_count(result.poses_expected), result.case_id});
   }
+  table.is_detail = table.rows.size() > kMaxOpenFailures;
   return table;
 }
 

@@ -41,6 +41,7 @@ struct Column {
   std::string heading;  // for people, with its unit
   std::string key;      // for programs: snake_case with its unit; CSV header
   ColumnKind kind = ColumnKind::kText;
+  bool is_optional = false;  // for people left out without a word where no row has a value
 };
 
 // Invariant: every row has one cell per column.

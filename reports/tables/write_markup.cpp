@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "reports/escape.hpp"
+#include "reports/tables/condensed.hpp"
 #include "reports/tables/writers.hpp"
 
 namespace corridor::tables {
@@ -59,10 +60,12 @@ constexpr std::size_t kMaxNameBytes = 32;
 
 std::string html_cell(const Cell& cell) {
   if (const auto* estimate = std::get_if<Estimate>(&cell)) {
-    return fmt::format("<td class=\"number\">{}{}{}<small>{}</small></td>",
-                       estimate->is_best ? "<strong>" : "",
-                       number_text(estimate->median, estimate->decimals),
-                       estimate->is_best ? "</strong>" : "", spread_text(*estimate));
+    const std::string interval = interval_text(*estimate);
+    return fmt::format(
+        "<td class=\"number\">{}{}{}{}<small>({})</small></td>",
+        estimate->is_best ? "<strong>" : "", number_text(estimate->median, estimate->decimals),
+        estimate->is_best ? "</strong>" : "",
+        interval.empty() ? "" : fmt::format("<small>{}</small>", interval), count_text(*estimate));
   }
   const std::string text = plain_text(cell);
   const char* kind = std::holds_alternative<Number>(cell)    ? "number"
@@ -74,7 +77,8 @@ std::string html_cell(const Cell& cell) {
 
 }  // namespace
 
-std::string to_latex(const Table& table) {
+std::string to_latex(const Table& full_table) {
+  const auto [table, common] = condense(full_table);
   std::string columns;
   std::string headings;
   for (const Column& column : table.columns) {
@@ -96,19 +100,24 @@ std::string to_latex(const Table& table) {
     text += " \\\\\n";
   }
   text += "\\bottomrule\n\\end{tabular}\n";
+  if (!common.empty()) {
+    text += fmt::format("\\par\\smallskip{{\\footnotesize {}}}\n", escape_latex(common));
+  }
   for (const std::string& note : table.notes) {
     text += fmt::format("\\par\\smallskip{{\\footnotesize {}}}\n", escape_latex(note));
   }
   return text + "\\end{table}\n";
 }
 
-std::string to_html(const Table& table) {
+std::string to_html(const Table& full_table) {
+  const auto [table, common] = condense(full_table);
   const std::string id = escape_html(table.id);
   std::string text = fmt::format(
-      "<h3 id=\"{0}-caption\">{1}</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "<h3 id=\"{0}-caption\">{1}</h3>\n{2}<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
       "aria-labelledby=\"{0}-caption\">\n<table id=\"{0}\" aria-labelledby=\"{0}-caption\">\n"
       "<thead><tr>",
-      id, escape_html(table.caption));
+      id, escape_html(table.caption),
+      common.empty() ? "" : fmt::format("<p class=\"note\">{}</p>\n", escape_html(common)));
   for (const Column& column : table.columns) {
     text += fmt::format("<th scope=\"col\"{}>{}</th>",
                         column.kind == ColumnKind::kText ? "" : " class=\"number\"",

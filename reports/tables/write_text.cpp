@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "reports/escape.hpp"
+#include "reports/tables/condensed.hpp"
 #include "reports/tables/writers.hpp"
 
 namespace corridor::tables {
@@ -11,7 +12,7 @@ using reports::escape_csv;
 using reports::escape_markdown;
 
 std::string markdown_cell(const Cell& cell) {
-  const std::string text = escape_markdown(plain_text(cell));
+  std::string text = escape_markdown(plain_text(cell));
   const auto* estimate = std::get_if<Estimate>(&cell);
   if (estimate == nullptr || !estimate->is_best) return text;
   const std::string median = number_text(estimate->median, estimate->decimals);
@@ -38,7 +39,7 @@ std::string csv_cell(const Cell& cell, ColumnKind kind) {
 }
 
 std::string csv_heading(const Column& column) {
-  const std::string key = escape_csv(column.key);
+  std::string key = escape_csv(column.key);
   if (column.kind != ColumnKind::kEstimate) return key;
   std::string heading = key;
   for (const char* suffix : {"_low", "_high", "_n", "_of", "_best"}) {
@@ -78,8 +79,10 @@ std::string plain_text(const Cell& cell) {
                      interval.empty() ? "" : " ", interval, count_text(estimate));
 }
 
-std::string to_markdown(const Table& table) {
-  std::string text = fmt::format("**{}**\n\n|", escape_markdown(table.caption));
+std::string to_markdown(const Table& full_table) {
+  const auto [table, common] = condense(full_table);
+  std::string text = fmt::format("**{}**\n\n{}|", escape_markdown(table.caption),
+                                 common.empty() ? "" : escape_markdown(common) + "\n\n");
   for (const Column& column : table.columns) {
     text += fmt::format(" {} |", escape_markdown(column.heading));
   }

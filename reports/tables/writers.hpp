@@ -1,4 +1,5 @@
-// A Table as text: Markdown and HTML and LaTeX for people, CSV for programs. All names are escaped.
+// A Table as text: Markdown and HTML and LaTeX for people, with what is the same in every row said
+// once (condensed.hpp); CSV for programs, with every column. All names are escaped.
 #pragma once
 
 #include <string>

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "reports/tables/condensed.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace corridor::tables {
@@ -50,6 +51,64 @@ TEST(TableWriters, LatexEqualsTheGoldenFile) {
 
 TEST(TableWriters, HtmlEqualsTheGoldenFile) {
   EXPECT_EQ(to_html(small_table()), golden("small.html"));
+}
+
+// Two rows on one data set, of which nothing is known about the world.
+Table table_with_constants() {
+  Table table = small_table();
+  table.columns.insert(table.columns.begin(), {"data set", "dataset", ColumnKind::kText});
+  table.columns.push_back({"in the paper [m]", "paper_m", ColumnKind::kNumber});
+  for (std::vector<Cell>& row : table.rows) {
+    row.insert(row.begin(), "corridor_1");
+    row.push_back(Missing{"other world"});
+  }
+  return table;
+}
+
+TEST(TableWriters, SayOnceWhatIsTheSameInEveryRow) {
+  const std::string common = "In every row: data set: corridor_1; in the paper [m]: other world.";
+  EXPECT_EQ(condense(table_with_constants()).common, common);
+  for (const std::string& text :
+       {to_markdown(table_with_constants()), to_latex(table_with_constants()),
+        to_html(table_with_constants())}) {
+    const std::size_t first = text.find("corridor");
+    ASSERT_NE(first, std::string::npos);
+    EXPECT_EQ(text.find("corridor", first + 1), std::string::npos);
+  }
+}
+
+TEST(TableWriters, CsvKeepsColumnsThatAreTheSameInEveryRow) {
+  EXPECT_THAT(to_csv(table_with_constants()),
+              ::testing::AllOf(::testing::StartsWith("dataset,system,"),
+                               ::testing::HasSubstr("corridor_1,fusion,")));
+}
+
+TEST(Condense, LeavesATableOfOneRowAndTheLastColumnAlone) {
+  Table table = table_with_constants();
+  table.rows.resize(1);
+  EXPECT_EQ(condense(table).table.columns.size(), table.columns.size());
+  Table same = table;
+  same.columns.resize(1);
+  same.rows = {{"x"}, {"x"}};
+  EXPECT_EQ(condense(same).table.columns.size(), 1U);
+  EXPECT_EQ(condense(same).common, "");
+}
+
+TEST(Condense, LeavesOutOptionalColumnsWithoutAValueAndSaysNothingOfThem) {
+  Table table = small_table();
+  table.columns.push_back({"in the paper [m]", "paper_m", ColumnKind::kNumber, true});
+  for (std::vector<Cell>& row : table.rows) row.push_back(Missing{"other world"});
+  EXPECT_EQ(to_markdown(table), golden("small.md"));
+  EXPECT_THAT(to_csv(table), ::testing::HasSubstr(",paper_m\r\n"));
+  table.rows[1].back() = Number{0.1949, 4};
+  EXPECT_THAT(to_markdown(table), ::testing::HasSubstr("| other world |"));
+}
+
+TEST(Condense, KeepsEstimatesEvenIfTheyAreEqual) {
+  Table table;
+  table.columns = {{"system", "system", ColumnKind::kText}, {"x", "x", ColumnKind::kEstimate}};
+  table.rows = {{"a", Estimate{1, {}, {}, 1, 1}}, {"b", Estimate{1, {}, {}, 1, 1}}};
+  EXPECT_EQ(condense(table).table.columns.size(), 2U);
 }
 
 TEST(NumberText, NeverWritesMinusZero) {
