@@ -8,8 +8,10 @@
 #include <set>
 
 #include "reports/escape.hpp"
+#include "reports/html/caveats.hpp"
 #include "reports/html/csp_hash.hpp"
 #include "reports/html/page_parts.hpp"
+#include "reports/html/reproduce.hpp"
 #include "reports/html/verdict.hpp"
 #include "reports/tables/writers.hpp"
 
@@ -23,6 +25,9 @@ using reports::Cases;
 
 // Longer tables are folded.
 constexpr std::size_t kMaxOpenRows = 24;
+
+// Farther away from the page than this, a folder is named without its place.
+constexpr std::ptrdiff_t kMaxStepsUp = 2;
 
 // Relative to the page where the file system allows it.
 std::string link_to(const fs::path& target, const fs::path& out) {
@@ -151,12 +156,21 @@ data case_list(const Cases& cases, const fs::path& out) {
   return list;
 }
 
+// Where the store lies as seen from the page; whose disk it is on is nobody's business.
+std::string store_name(const fs::path& run_dir, const fs::path& out) {
+  std::error_code error;
+  const fs::path relative = fs::relative(run_dir / "results.sqlite", out, error);
+  const auto num_up = std::count(relative.begin(), relative.end(), fs::path(".."));
+  if (!error && !relative.empty() && num_up <= kMaxStepsUp) return relative.string();
+  return (run_dir.lexically_normal().filename() / "results.sqlite").string();
+}
+
 data store_list(const Cases& cases, const fs::path& out) {
   data list(data::type::list);
   for (const fs::path& run_dir : cases.run_dirs()) {
     data item;
     item.set("url", link_to(run_dir / "results.sqlite", out));
-    item.set("text", reports::valid_utf8((run_dir / "results.sqlite").string()));
+    item.set("text", reports::valid_utf8(store_name(run_dir, out)));
     list.push_back(item);
   }
   return list;
@@ -169,53 +183,25 @@ std::set<std::string> suites(const Cases& cases) {
   return names;
 }
 
-// A name in single quotes as a POSIX shell reads it.
-std::string shell_quoted(const std::string& text) {
-  if (!text.empty() && reports::file_name_from(text) == text) return text;
-  std::string quoted = "'";
-  for (const char character : text) {
-    if (character == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += character;
-    }
-  }
-  quoted += '\'';
-  return quoted;
-}
-
-std::string commands(const Cases& cases) {
-  std::string text = "bench/reproduce.sh\n\n# or, with the program built:\n";
-  for (const std::string& suite : suites(cases)) {
-    text += fmt::format("corridor-bench run {0} --out {0}\n", shell_quoted(suite));
-  }
-  text += "corridor-bench report";
-  for (const std::string& suite : suites(cases)) text += fmt::format(" {}", shell_quoted(suite));
-  return text + " --out report\n";
-}
-
-std::string seed_text(const Cases& cases) {
-  std::set<std::uint64_t> data_seeds;
-  std::set<std::uint64_t> system_seeds;
-  for (const Case& entry : cases.all()) {
-    if (entry.result.data_seed) data_seeds.insert(*entry.result.data_seed);
-    system_seeds.insert(entry.result.system_seed);
-  }
-  return fmt::format(
-      "data {}; systems {}",
-      data_seeds.empty() ? "none (recorded)" : fmt::format("{}", fmt::join(data_seeds, ", ")),
-      fmt::join(system_seeds, ", "));
-}
-
 std::set<std::string> revisions(const Cases& cases) {
   std::set<std::string> names;
   for (const Case& entry : cases.all()) names.insert(entry.result.git_revision);
   return names;
 }
 
+// "3 cases", "1 case".
+std::string counted(std::size_t count, const std::string& thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::string subtitle(const Cases& cases) {
-  return fmt::format("{} cases: {} systems on {} data sets", cases.all().size(),
-                     cases.series().size(), cases.datasets().size());
+  std::set<std::string> systems;
+  for (const Case& entry : cases.all()) systems.insert(entry.result.system);
+  const std::size_t num_series = cases.series().size();
+  return fmt::format("{}: {}{} on {}", counted(cases.all().size(), "case"),
+                     counted(systems.size(), "system"),
+                     num_series == systems.size() ? "" : fmt::format(" in {} variants", num_series),
+                     counted(cases.datasets().size(), "data set"));
 }
 
 }  // namespace
@@ -237,8 +223,9 @@ Result<std::string> render_page(const PageContent& content) {
   page.set("revisions", text_list(revisions(cases)));
   page.set("machines", machine_list(cases));
   page.set("seeds", seed_text(cases));
+  page.set("caveats", text_list(caveats(cases)));
   page.set("parameters", parameter_list(cases));
-  page.set("commands", reports::valid_utf8(commands(cases)));
+  page.set("commands", reports::valid_utf8(reproduce_commands(cases)));
   page.set("stores", store_list(cases, content.out));
   page.set("num_cases", fmt::format("{}", cases.all().size()));
   page.set("case_files", case_list(cases, content.out));

@@ -8,6 +8,7 @@
 #include "reports/metrics.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/summary.hpp"
+#include "reports/timing.hpp"
 #include "slam/core/stage_clock.hpp"
 
 namespace corridor::tables {
@@ -97,9 +98,10 @@ Table cost_table(const Cases& cases) {
       table.rows.push_back(std::move(row));
     }
   }
-  table.notes = {
+  table.notes = reports::timing_notes(cases);
+  table.notes.emplace_back(
       "p50, p95, p99 are order statistics over the steps of a run. Times of different machines are "
-      "not comparable; memory is the peak of the whole process."};
+      "not comparable; memory is the peak of the whole process.");
   return table;
 }
 
@@ -128,6 +130,7 @@ Table stage_table(const Cases& cases) {
       }
     }
   }
+  table.notes = reports::timing_notes(cases);
   return table;
 }
 

@@ -1,0 +1,127 @@
+#include "reports/html/caveats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "reports/tables/paper_world.hpp"
+#include "reports/tables/report_tables.hpp"
+#include "reports/timing.hpp"
+
+namespace corridor::html {
+namespace {
+
+using reports::Case;
+using reports::Cases;
+using reports::Series;
+
+bool has_system(const Cases& cases, const std::set<std::string>& names) {
+  const auto& all = cases.all();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Case& entry) { return names.contains(entry.result.system); });
+}
+
+bool is_simulated(const Cases& cases) {
+  const auto& all = cases.all();
+  return std::any_of(all.begin(), all.end(),
+                     [](const Case& entry) { return entry.result.data_seed.has_value(); });
+}
+
+// Rivals with the parameters their users get, and what was changed in others.
+void append_configuration(const Cases& cases, std::vector<std::string>& sentences) {
+  std::string shipped;
+  for (const Series& series : cases.series()) {
+    if (series.profile != "shipped") continue;
+    shipped += (shipped.empty() ? "" : ", ") + cases.label(series);
+  }
+  if (!shipped.empty()) {
+    sentences.push_back(
+        fmt::format("As shipped, with the parameters that users of the original programs get: {}. "
+                    "Anything else "
+                    "is named in the label. None of them was tuned for these data.",
+                    shipped));
+  }
+  if (has_system(cases, {"fusion"}) && is_simulated(cases)) {
+    sentences.push_back(
+        "fusion was developed on worlds of the same simulator, with other seeds than the suites'; "
+        "no rival was adapted to it.");
+  }
+  if (has_system(cases, {"gmapping", "karto"})) {
+    sentences.push_back(
+        "gmapping and karto are reimplementations from papers and measured behaviour, not the "
+        "original programs.");
+  }
+}
+
+// [DoDuc2024] gives no data sheet of its LiDAR.
+void append_world(const Cases& cases, std::vector<std::string>& sentences) {
+  for (const std::string& dataset : cases.datasets()) {
+    if (!tables::is_paper_world(cases, dataset)) continue;
+    sentences.push_back(fmt::format(
+        "{}: the paper does not say how far its LiDAR sees. The range was chosen so that karto's "
+        "position error comes out near the paper's, so that agreement is no evidence.",
+        dataset));
+  }
+}
+
+void append_sensors(const Cases& cases, std::vector<std::string>& sentences) {
+  if (has_system(cases, {"fusion", "fusion-paper", "dead-reckoning-gyro"})) {
+    sentences.push_back(
+        "Only fusion, fusion-paper and dead-reckoning-gyro read the IMU; all others get wheels and "
+        "LiDAR, as their programs do (dead-reckoning the wheels alone). dead-reckoning-gyro, "
+        "wheels "
+        "and gyro without LiDAR, is the floor: what it reaches owes nothing to scan matching.");
+  }
+  if (is_simulated(cases)) {
+    sentences.push_back(
+        "Simulator and estimators share the form of their error models (constant wheel scale, "
+        "constant bias, white noise): systems that estimate these are favoured over what a real "
+        "robot would give them.");
+  }
+}
+
+void append_statistics(const Cases& cases, std::vector<std::string>& sentences) {
+  const std::size_t num_pairs = tables::comparison_table(cases).rows.size();
+  if (num_pairs > 1) {
+    sentences.push_back(fmt::format(
+        "Comparisons are pairwise with 95 % each and not corrected for their number: with {} pairs "
+        "(table of paired factors), a few intervals may miss 1 by chance. An interval just beside "
+        "1 "
+        "is weak evidence.",
+        num_pairs));
+  }
+}
+
+void append_provenance(const Cases& cases, std::vector<std::string>& sentences) {
+  std::set<std::string> revisions;
+  for (const Case& entry : cases.all()) revisions.insert(entry.result.git_revision);
+  if (revisions.size() > 1) {
+    sentences.push_back(
+        fmt::format("The cases are from {} revisions of the code: a difference between systems may "
+                    "be one between revisions.",
+                    revisions.size()));
+  }
+  if (std::any_of(revisions.begin(), revisions.end(),
+                  [](const std::string& revision) { return revision.ends_with("+dirty"); })) {
+    sentences.push_back(
+        "A revision ending in +dirty had changes that no revision holds: these numbers cannot be "
+        "made again from it with certainty.");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> caveats(const Cases& cases) {
+  std::vector<std::string> sentences;
+  append_configuration(cases, sentences);
+  append_sensors(cases, sentences);
+  append_world(cases, sentences);
+  append_statistics(cases, sentences);
+  for (const std::string& note : reports::timing_notes(cases))
+    sentences.push_back("Times: " + note);
+  append_provenance(cases, sentences);
+  return sentences;
+}
+
+}  // namespace corridor::html

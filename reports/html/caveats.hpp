@@ -1,0 +1,15 @@
+// What a reader has to know before believing the comparison: only what applies to these cases.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/cases.hpp"
+
+namespace corridor::html {
+
+// Plain text, to be escaped: how rivals are configured, who reads which sensor, what simulator and
+// estimators share, what intervals do not cover, which revisions and how many cases at a time.
+std::vector<std::string> caveats(const reports::Cases& cases);
+
+}  // namespace corridor::html
