@@ -56,6 +56,8 @@ Json json_of(const KeyDistances& keys) {
           {"alpha", json_of(keys.alpha)}};
 }
 
+Json json_of(const std::vector<std::string>& texts) { return texts; }
+
 Json json_of(const std::vector<StageTimes>& stages) {
   Json json = Json::array();
   for (const StageTimes& stage : stages) {
@@ -158,11 +160,12 @@ bool read(const Json& json, StageTimes& stage) {
          read_member(json, "p99_us", stage.p99_us) && read_member(json, "max_us", stage.max_us);
 }
 
-bool read(const Json& json, std::vector<StageTimes>& stages) {
+template <class T>
+bool read(const Json& json, std::vector<T>& values) {
   if (!json.is_array()) return false;
-  stages.clear();
+  values.clear();
   for (const Json& member : json) {
-    if (!read(member, stages.emplace_back())) return false;
+    if (!read(member, values.emplace_back())) return false;
   }
   return true;
 }

@@ -74,10 +74,13 @@ void visit_what(auto& r, auto&& v) {
   v(ResultKey{"profile", "", "named parameter set of the system", false}, r.profile);
   v(ResultKey{"backend", "", "graph back-end, null for systems without one", false}, r.backend);
   v(ResultKey{"dataset", "", "data set, scenario or log file", false}, r.dataset);
+  v(ResultKey{"data_digest", "", "hash of the log, or of the scenario's values", false},
+    r.data_digest);
   v(ResultKey{"data_seed", "", "seed of the simulated log, null for recorded data", false},
     r.data_seed);
   v(ResultKey{"system_seed", "", "seed of the system's random generator", false}, r.system_seed);
   v(ResultKey{"threads", "1", "threads the system may use", false}, r.threads);
+  v(ResultKey{"jobs", "1", "cases that ran at a time, null if not known", false}, r.jobs);
   v(ResultKey{"parameters_hash", "", "hash of all parameter values", false}, r.parameters_hash);
   v(ResultKey{"parameters", "", "every parameter's value", false}, r.parameters);
   v(ResultKey{"git_revision", "", "revision of the program, +dirty with local changes", false},
@@ -88,6 +91,7 @@ void visit_what(auto& r, auto&& v) {
 void visit_outcome(auto& r, auto&& v) {
   v(ResultKey{"status", "", "how the case ended", false}, r.status);
   v(ResultKey{"status_message", "", "why, where it is not ok", false}, r.status_message);
+  v(ResultKey{"notes", "", "what a reader of the scores should know", false}, r.notes);
   v(ResultKey{"poses_expected", "1", "poses that should have been given"}, r.poses_expected);
   v(ResultKey{"poses_matched", "1", "poses that were given and matched with the truth"},
     r.poses_matched);

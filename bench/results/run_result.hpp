@@ -76,9 +76,11 @@ struct RunResult {
   std::string system, profile;
   std::optional<std::string> backend;
   std::string dataset;                     // catalogue name, scenario name or file
+  std::optional<std::string> data_digest;  // of the log's bytes or the scenario's values
   std::optional<std::uint64_t> data_seed;  // null for recorded data
   std::uint64_t system_seed = 0;
   int threads = 1;
+  std::optional<int> jobs;  // cases that ran at a time; null if nobody said
   std::string parameters_hash;
   std::map<std::string, std::string> parameters;
   std::string git_revision, machine_id;
@@ -86,6 +88,7 @@ struct RunResult {
   // outcome
   CaseStatus status = CaseStatus::kFailed;
   std::string status_message;
+  std::vector<std::string> notes;  // what a reader of the scores should know
   std::optional<std::int64_t> poses_expected, poses_matched;
   std::optional<std::string> association, alignment;
 

@@ -38,7 +38,8 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "slip_latency_s degeneracy_precision degeneracy_recall stages step_p50_us step_p95_us "
       "step_p99_us step_max_us wall_s cpu_s peak_rss_mib realtime_factor "
       // beyond the contract's table
-      "case_id suite parameters counters online_relations_used online_relations_skipped "
+      "case_id suite data_digest jobs notes parameters counters online_relations_used "
+      "online_relations_skipped "
       "online_relations_translation_mean_m online_relations_translation_std_m "
       "online_relations_rotation_mean_deg online_relations_rotation_std_deg");
   std::set<std::string> expected;
