@@ -4,7 +4,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <iostream>
@@ -29,16 +28,7 @@ namespace {
 
 using corridor::Result;
 using corridor::cli::ExitCode;
-
-// One line, whatever is in the text.
-void print_error(std::string text) {
-  std::replace(text.begin(), text.end(), '\r', ' ');
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) {
-    text.replace(at, 1, "; ");
-  }
-  std::fprintf(stderr, "corridor-bench: %s\n", text.c_str());
-}
+using corridor::cli::print_error;
 
 struct Commands {
   corridor::cli::ListCommand list;

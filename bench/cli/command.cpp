@@ -6,11 +6,24 @@
 #include <cstdio>
 #include <system_error>
 
+#include "bench/runner/printable.hpp"
+
 namespace corridor::cli {
+namespace {
+
+// What is wrong with an option's value, as CLI11 asks; empty for nothing.
+std::string not_a_folder(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return "";
+  return "\"" + path + "\" is no folder; expected an existing folder with data sets";
+}
+
+}  // namespace
 
 void CommonOptions::add_to(CLI::App& command) {
   command.add_option("--data-dir", data_dir, "Folder that is searched for data sets first")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_a_folder);
   command.add_flag("--quiet", is_quiet, "Print results and errors only");
 }
 
@@ -24,7 +37,15 @@ catalog::DataDirs CommonOptions::data_dirs() const {
 }
 
 void CommonOptions::say(const std::string& line) const {
-  if (!is_quiet) std::puts(line.c_str());
+  if (!is_quiet) std::puts(runner::printable(line).c_str());
+}
+
+void print_error(const std::string& text) {
+  std::string line = text.substr(0, text.find_last_not_of("\r\n") + 1);
+  for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at)) {
+    line.replace(at, 1, "; ");
+  }
+  std::fprintf(stderr, "corridor-bench: %s\n", runner::printable(line).c_str());
 }
 
 Result<void> check_parent_folder(const std::filesystem::path& file) {
@@ -43,8 +64,11 @@ Result<std::uint64_t> seed_from_text(const std::string& text) {
   return fail(ErrorCode::kInvalid, text, "--seed", "a whole number from 0 to 18446744073709551615");
 }
 
-std::string text_table(const std::vector<std::vector<std::string>>& rows) {
+std::string text_table(std::vector<std::vector<std::string>> rows) {
   std::vector<std::size_t> widths;
+  for (auto& row : rows) {
+    for (std::string& cell : row) cell = runner::printable(cell);
+  }
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());

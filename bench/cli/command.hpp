@@ -26,9 +26,15 @@ struct CommonOptions {
   void add_to(CLI::App& command);
   [[nodiscard]] std::optional<std::filesystem::path> data_path() const;
   [[nodiscard]] catalog::DataDirs data_dirs() const;
-  // Standard output, unless quiet.
+  // One line on standard output, unless quiet.
   void say(const std::string& line) const;
 };
+
+// Most cases at a time.
+inline constexpr int kMaxJobs = 1024;
+
+// One line on stderr, whatever is in the text.
+void print_error(const std::string& text);
 
 // Writes a report on run directories into a folder. Handed in by main(), the one place that knows
 // of reports.
@@ -45,6 +51,6 @@ Result<void> check_parent_folder(const std::filesystem::path& file);
 Result<std::uint64_t> seed_from_text(const std::string& text);
 
 // Columns padded with blanks, as wide as needed; the first row is the head.
-std::string text_table(const std::vector<std::vector<std::string>>& rows);
+std::string text_table(std::vector<std::vector<std::string>> rows);
 
 }  // namespace corridor::cli

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "bench/runner/printable.hpp"
+
 namespace corridor::runner {
 namespace {
 
@@ -50,10 +52,11 @@ void Progress::erase_status() {
 }
 
 void Progress::note(const std::string& line) {
-  log_ << line << "\n" << std::flush;
+  const std::string shown = printable(line);
+  log_ << shown << "\n" << std::flush;
   if (is_quiet_) return;
   erase_status();
-  std::fputs((line + "\n").c_str(), stdout);
+  std::fputs((shown + "\n").c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -67,6 +70,7 @@ void Progress::case_done(const results::RunResult& result, double case_wall_s) {
   note(fmt::format("[{}/{}] {}: {}{}, {:.1f} s{}{}", num_done_, num_cases_, name,
                    to_text(result.status), headline(result), case_wall_s,
                    result.status_message.empty() ? "" : ": ", result.status_message));
+  for (const std::string& text : result.notes) note("  note: " + text);
 }
 
 void Progress::tick() {
