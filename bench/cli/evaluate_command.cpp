@@ -7,9 +7,12 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "bench/metrics/score_case.hpp"
 #include "bench/results/result_json.hpp"
@@ -86,7 +89,23 @@ Result<void> check_request(const EvaluateCommand& command) {
     return fail(ErrorCode::kInvalid, "a map can be laid into its world only by the truth",
                 "evaluate", "--truth");
   }
+  const std::string suffix = std::filesystem::path(command.map).extension();
+  if (!command.map.empty() && suffix != ".yaml" && suffix != ".yml") {
+    return fail(ErrorCode::kUnsupported, "the suffix is not that of a map's description",
+                "--map " + command.map,
+                "the .yaml of ROS map_server, which names the image of the map");
+  }
   return {};
+}
+
+// What is wrong with an option's value, as CLI11 asks; empty for nothing.
+std::string not_a_time_span(const std::string& text) {
+  double value_s = 0;
+  const char* end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, value_s);
+  const bool is_number = error == std::errc() && parsed_to == end && std::isfinite(value_s);
+  if (is_number && value_s >= 0) return "";
+  return "\"" + text + "\" is no time span; expected seconds, 0 or more";
 }
 
 metrics::CaseEvidence evidence_of(const Inputs& inputs) {
@@ -158,7 +177,7 @@ void EvaluateCommand::add_to(CLI::App& command) {
                   "origin: first poses on each other; se2: best rigid motion; none")
       ->check(CLI::IsMember({"origin", "se2", "none"}));
   command.add_option("--max-dt", max_dt_s, "Largest difference of matched stamps [s] (0.01)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_a_time_span);
   command.add_option("--associate", association, "How stamps are matched")
       ->check(CLI::IsMember({"nearest", "interpolate"}));
   command.add_flag("--json", is_json, "One JSON document with the keys of result.json");
