@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/cli/staged_files.hpp"
+#include "bench/runner/case_data.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "datasets/formats/log_io.hpp"
 
@@ -97,7 +98,7 @@ Result<ExitCode> ConvertCommand::run() const {
   if (const Result<void> folder = check_parent_folder(out); !folder) {
     return tl::make_unexpected(folder.error());
   }
-  const Result<catalog::LoadedDataset> loaded = catalog::load_dataset(in, common.data_dirs());
+  const Result<catalog::LoadedDataset> loaded = runner::load_dataset(in, common.data_dirs());
   if (!loaded) return tl::make_unexpected(loaded.error());
   if (const Result<void> good = check_convert(*loaded, out); !good) {
     return tl::make_unexpected(good.error());

@@ -23,6 +23,15 @@ struct CaseData {
   std::optional<simulation::SimulationTruth> simulation_truth;
 };
 
+// catalog::load_dataset(), but a folder is told to be one.
+Result<catalog::LoadedDataset> load_dataset(const std::string& name_or_path,
+                                            const catalog::DataDirs& dirs);
+
+// The same for a log that is to be scored: truth or relations that meet none of its
+// scans are an Error, since they are of another clock, unit or log.
+Result<catalog::LoadedDataset> load_scorable_dataset(const std::string& name_or_path,
+                                                     const catalog::DataDirs& dirs);
+
 Result<CaseData> load_case_data(const CaseSpec& spec, const catalog::DataDirs& dirs);
 
 }  // namespace corridor::runner

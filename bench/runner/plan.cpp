@@ -7,44 +7,39 @@
 #include <sstream>
 
 #include "bench/results/digest.hpp"
+#include "bench/runner/case_data.hpp"
+#include "bench/runner/name_data.hpp"
 #include "bench/runner/systems.hpp"
 #include "datasets/simulation/scenario.hpp"
 
 namespace corridor::runner {
 namespace {
 
-// One source of data, looked at once.
-struct DataItem {
-  DataKind kind = DataKind::kSimulated;
-  std::string name;
-  std::string source;
-  std::string digest;
-  bool has_imu = true;
-};
+// One spelling for each file; a case may run from another folder.
+std::string absolute_source(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
 
 Result<DataItem> scenario_item(const std::string& source) {
   const Result<std::filesystem::path> path = simulation::find_scenario(source);
   if (!path) return tl::make_unexpected(path.error());
   const Result<simulation::Scenario> scenario = simulation::read_scenario(*path);
   if (!scenario) return tl::make_unexpected(scenario.error());
-  // A path is made absolute: a case may run from another folder.
   const bool is_path = std::filesystem::path(source).extension() == ".toml";
   std::string values;
   for (const auto& [key, value] : simulation::scenario_values(*scenario)) {
     values += key + " = " + value + "\n";
   }
-  return DataItem{DataKind::kSimulated, scenario->name,
-                  is_path ? std::filesystem::absolute(*path).string() : source,
+  return DataItem{DataKind::kSimulated, scenario->name, is_path ? absolute_source(*path) : source,
                   results::short_digest(values), true};
 }
 
 Result<DataItem> dataset_item(const std::string& source, const catalog::DataDirs& dirs) {
-  const Result<catalog::LoadedDataset> loaded = catalog::load_dataset(source, dirs);
+  const Result<catalog::LoadedDataset> loaded = load_scorable_dataset(source, dirs);
   if (!loaded) return tl::make_unexpected(loaded.error());
   const bool is_name = loaded->name == source;
-  return DataItem{DataKind::kRecorded, loaded->name,
-                  is_name ? source : std::filesystem::absolute(source).string(), loaded->sha256,
-                  loaded->log.num_imu_samples() > 0};
+  return DataItem{DataKind::kRecorded, loaded->name, is_name ? source : absolute_source(source),
+                  loaded->sha256, loaded->log.num_imu_samples() > 0};
 }
 
 class Planner {
@@ -55,20 +50,23 @@ class Planner {
     for (const std::string& source : suite_.scenarios) {
       const Result<DataItem> item = scenario_item(source);
       if (!item) return tl::make_unexpected(item.error());
-      add_simulated(*item);
+      items_.push_back(*item);
     }
     for (const std::string& source : suite_.datasets) {
       const Result<DataItem> item = dataset_item(source, dirs);
       if (item) {
-        add_recorded(*item);
+        items_.push_back(*item);
       } else if (options_.must_load_data) {
         return tl::make_unexpected(item.error());
       } else if (item.error().code == ErrorCode::kNotFound) {
         plan_.skipped.push_back(fmt::format("{}: skipped: {}", source, item.error().to_line()));
       } else {
         // Broken data are a row of every system, not a gap.
-        add_recorded({DataKind::kRecorded, source, source, "", true});
+        items_.push_back({DataKind::kRecorded, source, source, "", true});
       }
+    }
+    for (const DataItem& item : with_own_names(std::move(items_))) {
+      item.kind == DataKind::kSimulated ? add_simulated(item) : add_recorded(item);
     }
     return std::move(plan_);
   }
@@ -128,6 +126,7 @@ class Planner {
 
   const Suite& suite_;
   PlanOptions options_;
+  std::vector<DataItem> items_;
   Plan plan_;
 };
 

@@ -93,6 +93,27 @@ constexpr const char* kTinyLog =
     "ODOM 0.1 0 0 0.2 0 0 1.1 host 1.1\n"
     "FLASER 8 1 1 1 1 1 1 1 1 0.1 0 0 0.1 0 0 1.1 host 1.1\n";
 
+TEST(Plan, TellsLogsOfTheSameFileNameApart) {
+  const testing::ScratchFolder folder;
+  Suite suite = suite_of({"karto"});
+  suite.datasets = {folder.write("monday/run.log", kTinyLog).string(),
+                    folder.write("tuesday/run.log", kTinyLog).string(),
+                    (folder / "monday/../tuesday/run.log").string()};
+  const Plan plan = plan_of(suite);
+  ASSERT_EQ(plan.cases.size(), 2U) << "one file, spelled in two ways, counts once";
+  EXPECT_EQ(plan.cases[0].dataset, "monday/run");
+  EXPECT_EQ(plan.cases[1].dataset, "tuesday/run");
+}
+
+TEST(Plan, RefusesAFolderAsALog) {
+  const testing::ScratchFolder folder;
+  Suite suite = suite_of({"karto"});
+  suite.datasets = {folder.path().string()};
+  const auto refused = make_plan(suite, {}, {.must_load_data = true});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().what, "this is a folder");
+}
+
 TEST(Plan, RunsRecordedDataOncePerSeedOnlyWithSystemsThatDrawRandomNumbers) {
   const testing::ScratchFolder folder;
   Suite suite = suite_of({"karto", "gmapping"});
