@@ -1,6 +1,7 @@
 // corridor-bench run-case SPEC.json --out DIR: one case in this process.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bench/cli/command.hpp"
@@ -11,6 +12,7 @@ struct RunCaseCommand {
   CommonOptions common;
   std::string spec;
   std::string out;
+  std::optional<int> num_jobs;
 
   void add_to(CLI::App& command);
   [[nodiscard]] Result<ExitCode> run() const;

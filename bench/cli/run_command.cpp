@@ -16,6 +16,7 @@
 
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
+#include "bench/runner/folder_lock.hpp"
 #include "bench/runner/plan.hpp"
 #include "bench/runner/run_plan.hpp"
 #include "datasets/simulation/scenario.hpp"
@@ -98,10 +99,10 @@ ExitCode finish(const runner::RunSummary& summary, const std::string& what_was_d
 void RunCommand::add_to(CLI::App& command) {
   command.add_option("suite", suite, "Name of a suite, or a suite's .toml file")
       ->type_name("SUITE");
-  command.add_option("--out", out, "Folder of the results (default: reports/out/SUITE)")
+  command.add_option("--out", out, "Folder of the results (default: reports/out/SUITE, from here)")
       ->type_name("DIR");
   command.add_option("--jobs", num_jobs, "Cases at a time (default: 1, for undisturbed times)")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, kMaxJobs));
   command.add_option("--seeds", num_seeds, "Number of seeds instead of the suite's")
       ->check(CLI::Range(1, 100000));
   command.add_option("--seed", first_seed, "First seed instead of the suite's")->type_name("N");
@@ -190,24 +191,27 @@ Result<ExitCode> RunCommand::run(const ReportWriter& write_report) const {
   const Result<fs::path> program = this_program();
   if (!program) return tl::make_unexpected(program.error());
 
+  // Held until the report is written.
+  const Result<runner::FolderLock> folder = runner::FolderLock::take(
+      fs::absolute(out.empty() ? fs::path("reports/out") / requested->name : fs::path(out)));
+  if (!folder) return tl::make_unexpected(folder.error());
+  const fs::path& results = folder->folder();
   runner::RunOptions options;
-  options.out =
-      fs::absolute(out.empty() ? fs::path("reports/out") / requested->name : fs::path(out));
   options.executable = *program;
   options.data_dir = common.data_path();
   options.num_jobs = num_jobs;
   options.is_resumed = is_resumed;
   options.is_quiet = common.is_quiet;
   options.is_terminal = isatty(STDOUT_FILENO) != 0;
-  const Result<runner::RunSummary> summary = runner::run_plan(*plan, options);
+  const Result<runner::RunSummary> summary = runner::run_plan(*plan, *folder, options);
   if (!summary) return tl::make_unexpected(summary.error());
   if (!has_no_report && !summary->is_interrupted) {
-    const Result<void> written = write_report({options.out}, options.out);
+    const Result<void> written = write_report({results}, results);
     if (!written) return tl::make_unexpected(written.error());
   }
   return finish(*summary,
                 fmt::format("{} cases, {} kept from before, {} failed: {}", summary->num_cases,
-                            summary->num_kept, summary->num_failed, options.out.string()),
+                            summary->num_kept, summary->num_failed, results.string()),
                 common);
 }
 

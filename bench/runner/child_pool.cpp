@@ -118,30 +118,32 @@ void kill_all(const std::vector<Child>& running) {
 }  // namespace
 
 bool run_children(const std::vector<ChildTask>& tasks, int num_jobs,
-                  const std::function<void(std::size_t, const ChildResult&)>& finished,
+                  const std::function<bool(std::size_t, const ChildResult&)>& finished,
                   const std::function<void()>& tick) {
   const BlockedSignals signals;
   std::vector<Child> running;
   std::size_t next = 0;
-  while (next < tasks.size() || !running.empty()) {
-    while (next < tasks.size() && running.size() < static_cast<std::size_t>(num_jobs)) {
+  bool is_wanted = true;
+  while (is_wanted && (next < tasks.size() || !running.empty())) {
+    while (is_wanted && next < tasks.size() &&
+           running.size() < static_cast<std::size_t>(num_jobs)) {
       const std::optional<Child> child = start(tasks[next], next, signals.before());
       if (child)
         running.push_back(*child);
       else
-        finished(next, ChildResult{});
+        is_wanted = finished(next, ChildResult{});
       ++next;
     }
     if (signals.wait()) {
       kill_all(running);
       return false;
     }
-    for (std::size_t i = 0; i < running.size();) {
+    for (std::size_t i = 0; is_wanted && i < running.size();) {
       int status = 0;
       if (waitpid(running[i].process, &status, WNOHANG) == running[i].process) {
         const Child child = running[i];
         running.erase(running.begin() + static_cast<std::ptrdiff_t>(i));
-        finished(child.task_index, result_of(child, status));
+        is_wanted = finished(child.task_index, result_of(child, status));
       } else {
         enforce_limits(tasks[running[i].task_index], running[i]);
         ++i;
@@ -149,7 +151,8 @@ bool run_children(const std::vector<ChildTask>& tasks, int num_jobs,
     }
     tick();
   }
-  return true;
+  kill_all(running);
+  return is_wanted;
 }
 
 }  // namespace corridor::runner

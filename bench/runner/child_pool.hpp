@@ -34,14 +34,15 @@ struct ChildResult {
   double wall_s = 0;
 };
 
-// Calls `finished(index, result)` for each task in the order in which they end. Children die with
+// Calls `finished(index, result)` for each task in the order in which they end; where it answers
+// false, nothing more is started and running children are killed. Children die with
 // this process. The memory limit is on resident memory, looked at every few hundredths of a second:
 // a limit on address space (RLIMIT_AS, RLIMIT_DATA) would count what the libraries reserve and
 // never touch, and a failed allocation inside a third-party library could not be told from a crash.
-// False: stopped by SIGINT or SIGTERM; running children were killed and the rest was not started.
+// False: stopped by SIGINT, SIGTERM or `finished`; the rest was not started.
 [[nodiscard]] bool run_children(
     const std::vector<ChildTask>& tasks, int num_jobs,
-    const std::function<void(std::size_t, const ChildResult&)>& finished,
+    const std::function<bool(std::size_t, const ChildResult&)>& finished,
     const std::function<void()>& tick);
 
 }  // namespace corridor::runner

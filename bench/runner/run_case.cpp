@@ -141,8 +141,7 @@ void settle_status(const CaseData& data, const Drive& run, RunResult& result) {
   }
 }
 
-std::string log_text(const CaseData& data, const std::vector<std::string>& remarks,
-                     const RunResult& result) {
+std::string log_text(const CaseData& data, const RunResult& result) {
   std::string text = fmt::format(
       "case {}\nsystem {}@{} seed {}\ndata {} ({}, {}): {} scans, {} wheel samples, {} inertial "
       "samples, {:.1f} s\n",
@@ -150,7 +149,7 @@ std::string log_text(const CaseData& data, const std::vector<std::string>& remar
       data.log.provenance.format, data.log.provenance.source, data.log.num_scans(),
       data.log.num_wheel_samples(), data.log.num_imu_samples(), data.log.duration_s());
   for (const std::string& note : data.log.provenance.notes) text += "data note: " + note + "\n";
-  for (const std::string& remark : remarks) text += "score note: " + remark + "\n";
+  for (const std::string& note : result.notes) text += "score note: " + note + "\n";
   for (const auto& [name, value] : result.counters) text += fmt::format("{} {}\n", name, value);
   text += fmt::format("status {}{}{}\n", to_text(result.status),
                       result.status_message.empty() ? "" : ": ", result.status_message);
@@ -159,7 +158,7 @@ std::string log_text(const CaseData& data, const std::vector<std::string>& remar
 
 }  // namespace
 
-RunResult record_of(const CaseSpec& spec) {
+RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
   RunResult result;
   result.case_id = case_id(spec);
   result.suite = spec.suite;
@@ -167,9 +166,11 @@ RunResult record_of(const CaseSpec& spec) {
   result.profile = spec.profile;
   result.backend = spec.backend;
   result.dataset = spec.dataset;
+  if (!spec.data_digest.empty()) result.data_digest = spec.data_digest;
   result.data_seed = spec.data_seed;
   result.system_seed = spec.system_seed;
   result.threads = spec.threads;
+  result.jobs = jobs;
   result.git_revision = git_revision();
   result.machine_id = results::this_machine().machine_id;
   if (const Result<SystemInfo> info = find_system(spec.system)) {
@@ -182,22 +183,23 @@ RunResult record_of(const CaseSpec& spec) {
   return result;
 }
 
-Result<RunResult> run_case(const CaseSpec& spec, const catalog::DataDirs& dirs,
-                           const std::filesystem::path& out) {
+tl::expected<RunResult, CaseFailure> run_case(const CaseSpec& spec, const catalog::DataDirs& dirs,
+                                              const std::filesystem::path& out,
+                                              std::optional<int> jobs) {
   const Result<CaseData> data = load_case_data(spec, dirs);
-  if (!data) return tl::make_unexpected(data.error());
+  if (!data) return tl::make_unexpected(CaseFailure{data.error()});
   const Result<std::unique_ptr<SlamSystem>> system = make_system(spec, *data);
-  if (!system) return tl::make_unexpected(system.error());
+  if (!system) return tl::make_unexpected(CaseFailure{system.error()});
 
   const Drive run = drive(**system, data->log);
 
-  RunResult result = record_of(spec);
+  RunResult result = record_of(spec, jobs);
   std::optional<GridMap> rendered_map;
   if (run.estimate) {
     take_counters(*run.estimate, result);
     rendered_map = render_map(data->log, run.estimate->trajectory);
   }
-  const std::vector<std::string> remarks = score(*data, run, rendered_map, result);
+  result.notes = score(*data, run, rendered_map, result);
   score_cost(run, (*system)->stage_clock(), data->log.duration_s(), result);
   settle_status(*data, run, result);
 
@@ -206,9 +208,9 @@ Result<RunResult> run_case(const CaseSpec& spec, const catalog::DataDirs& dirs,
         const CaseOutput output{&*data, &run, system->get(),
                                 rendered_map ? &*rendered_map : nullptr};
         if (auto done = write_output(folder, output); !done) return done;
-        return write_record(folder, spec, result, log_text(*data, remarks, result));
+        return write_record(folder, spec, result, log_text(*data, result));
       });
-  if (!written) return tl::make_unexpected(written.error());
+  if (!written) return tl::make_unexpected(CaseFailure{written.error(), true});
   return result;
 }
 

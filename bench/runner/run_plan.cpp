@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <string.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include "bench/results/results_store.hpp"
 #include "bench/runner/case_files.hpp"
 #include "bench/runner/child_pool.hpp"
+#include "bench/runner/earlier_cases.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/runner/git_revision.hpp"
 #include "bench/runner/progress.hpp"
@@ -84,8 +86,8 @@ std::optional<RunResult> finished_record(const fs::path& out, const CaseSpec& sp
 
 // Why a child ended that left no record of its own.
 RunResult record_of_failure(const CaseSpec& spec, const ChildResult& child,
-                            const std::string& output) {
-  RunResult record = record_of(spec);
+                            const std::string& output, int num_jobs) {
+  RunResult record = record_of(spec, num_jobs);
   const std::string line = last_line(output);
   const std::string said = line.empty() ? "" : fmt::format(": {}", line);
   switch (child.end) {
@@ -116,14 +118,14 @@ RunResult record_of_failure(const CaseSpec& spec, const ChildResult& child,
 
 // The child's own record, or one made up for it and written in its place.
 Result<RunResult> collect(const fs::path& out, const CaseSpec& spec, const ChildResult& child,
-                          const std::string& output) {
+                          const std::string& output, int num_jobs) {
   const fs::path folder = case_folder(out, case_id(spec));
   const bool has_record = child.end == ChildEnd::kExited &&
                           (child.exit_code == kExitDone || child.exit_code == kExitNo);
   if (has_record) return results::read_result(folder / "result.json");
   std::error_code ignored;
   fs::remove_all(partial_folder(folder), ignored);
-  const RunResult record = record_of_failure(spec, child, output);
+  const RunResult record = record_of_failure(spec, child, output, num_jobs);
   const Result<void> written = write_folder_atomically(folder, [&](const fs::path& temporary) {
     return write_record(temporary, spec, record,
                         fmt::format("case {}\n{}status {}: {}\n", record.case_id, output,
@@ -141,24 +143,27 @@ bool is_failure(const RunResult& record) {
 // Everything a run of a plan has at hand.
 class PlanRun {
  public:
-  PlanRun(const Plan& plan, const RunOptions& options, WorkFolder work, results::ResultsStore store)
-      : options_(options),
+  PlanRun(const Plan& plan, const fs::path& out, const RunOptions& options, WorkFolder work,
+          results::ResultsStore store)
+      : out_(out),
+        options_(options),
         work_(std::move(work)),
         store_(std::move(store)),
         progress_(plan.cases.size(), options.is_quiet, options.is_terminal,
-                  (options.out / "log.txt").string()) {
+                  (out / "log.txt").string()) {
     summary_.num_cases = plan.cases.size();
     for (const std::string& line : plan.skipped) progress_.note(line);
   }
 
-  Result<RunSummary> run(const std::vector<CaseSpec>& cases) {
+  Result<RunSummary> run(const std::vector<CaseSpec>& cases, const EarlierCases& earlier) {
+    say_what_is_here(earlier);
     if (const Result<void> put = store_.put(results::this_machine()); !put) {
       return tl::make_unexpected(put.error());
     }
     std::vector<CaseSpec> waiting;
     for (const CaseSpec& spec : cases) {
       std::optional<RunResult> record;
-      if (options_.is_resumed) record = finished_record(options_.out, spec);
+      if (options_.is_resumed) record = finished_record(out_, spec);
       if (!record) {
         waiting.push_back(spec);
         continue;
@@ -174,7 +179,20 @@ class PlanRun {
   }
 
  private:
+  void say_what_is_here(const EarlierCases& earlier) {
+    summary_.num_earlier = earlier.num_cases;
+    if (earlier.num_cases == 0) return;
+    progress_.note(fmt::format(
+        "{}: {} of earlier runs (suite {}) stay here and are in the report too; --out names "
+        "another folder",
+        out_.string(),
+        earlier.num_cases == 1 ? "1 case" : fmt::format("{} cases", earlier.num_cases),
+        fmt::join(earlier.suites, ", ")));
+  }
+
   Result<void> start(const std::vector<CaseSpec>& waiting) {
+    // What the times of a case are disturbed by.
+    num_jobs_ = std::clamp(static_cast<int>(waiting.size()), 1, options_.num_jobs);
     std::vector<ChildTask> tasks;
     for (const CaseSpec& spec : waiting) {
       const Result<ChildTask> task = task_of(spec);
@@ -183,14 +201,14 @@ class PlanRun {
     }
     const auto finished = [&](std::size_t index, const ChildResult& child) {
       const std::string output = read_text(tasks[index].output_file);
-      const Result<RunResult> record = collect(options_.out, waiting[index], child, output);
+      const Result<RunResult> record = collect(out_, waiting[index], child, output, num_jobs_);
       if (record)
         keep(*record, child.wall_s);
       else
         problem_ = record.error();
+      return !problem_.has_value();
     };
-    summary_.is_interrupted =
-        !run_children(tasks, options_.num_jobs, finished, [&] { progress_.tick(); });
+    summary_.is_interrupted = !run_children(tasks, num_jobs_, finished, [&] { progress_.tick(); });
     return {};
   }
 
@@ -201,8 +219,14 @@ class PlanRun {
         formats::write_file_atomically(work_.spec_file(id), std::string_view(text));
     if (!written) return tl::make_unexpected(written.error());
     ChildTask task;
-    task.command = {options_.executable.string(), "run-case", work_.spec_file(id).string(), "--out",
-                    options_.out.string(),        "--quiet"};
+    task.command = {options_.executable.string(),
+                    "run-case",
+                    work_.spec_file(id).string(),
+                    "--out",
+                    out_.string(),
+                    "--quiet",
+                    "--jobs",
+                    std::to_string(num_jobs_)};
     if (options_.data_dir) {
       task.command.insert(task.command.end(), {"--data-dir", options_.data_dir->string()});
     }
@@ -218,22 +242,28 @@ class PlanRun {
     progress_.case_done(record, wall_s);
   }
 
+  const fs::path& out_;
   const RunOptions& options_;
   WorkFolder work_;
   results::ResultsStore store_;
   Progress progress_;
   RunSummary summary_;
+  int num_jobs_ = 1;
   std::optional<Error> problem_;  // of the harness itself: a full disk
 };
 
 }  // namespace
 
-Result<RunSummary> run_plan(const Plan& plan, const RunOptions& options) {
-  Result<WorkFolder> work = WorkFolder::create(options.out);
-  if (!work) return tl::make_unexpected(work.error());
-  Result<results::ResultsStore> store = results::ResultsStore::open(options.out / "results.sqlite");
+Result<RunSummary> run_plan(const Plan& plan, const FolderLock& out, const RunOptions& options) {
+  const fs::path& folder = out.folder();
+  Result<results::ResultsStore> store = results::ResultsStore::open(folder / "results.sqlite");
   if (!store) return tl::make_unexpected(store.error());
-  return PlanRun(plan, options, std::move(*work), std::move(*store)).run(plan.cases);
+  const Result<EarlierCases> earlier = earlier_cases(*store, plan.cases, folder);
+  if (!earlier) return tl::make_unexpected(earlier.error());
+  Result<WorkFolder> work = WorkFolder::create(folder);
+  if (!work) return tl::make_unexpected(work.error());
+  return PlanRun(plan, folder, options, std::move(*work), std::move(*store))
+      .run(plan.cases, *earlier);
 }
 
 }  // namespace corridor::runner

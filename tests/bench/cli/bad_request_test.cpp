@@ -168,6 +168,76 @@ TEST(BadRequest, AnEvaluationWithNothingToCompare) {
   expect_refused(folder, "evaluate --estimate e.tum --relations far.relations",
                  {"no relation could be matched", "far.relations"});
   expect_refused(folder, "evaluate --estimate e.tum --truth e.tum --map m.yaml", {"--world"});
+  expect_refused(folder, "evaluate --estimate e.tum --truth e.tum --map m.pgm --world w.toml",
+                 {"--map m.pgm", "expected the .yaml"});
+  for (const std::string span : {"nan", "-1", "1e-2s"}) {
+    expect_refused(folder, "evaluate --estimate e.tum --truth e.tum --max-dt '" + span + "'",
+                   {"--max-dt", "\"" + span + "\"", "expected seconds, 0 or more"});
+  }
+}
+
+TEST(BadRequest, ADataFolderThatIsNotThere) {
+  const ScratchFolder folder;
+  folder.write("file", "");
+  for (const std::string arguments :
+       {"run smoke --out o --data-dir nonexist", "data list --data-dir nonexist",
+        "convert a.clf b.rawlog --data-dir nonexist"}) {
+    expect_refused(folder, arguments,
+                   {"--data-dir", "\"nonexist\" is no folder", "expected an existing folder"});
+  }
+  expect_refused(folder, "data list --data-dir file", {"\"file\" is no folder"});
+}
+
+TEST(BadRequest, AFolderAsALog) {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "logs");
+  expect_refused(folder, "run --system karto --dataset logs --out o",
+                 {"logs: this is a folder; expected a log file"});
+  expect_refused(folder, "convert logs x.rawlog", {"logs: this is a folder; expected a log file"});
+}
+
+TEST(BadRequest, ATruthOfAnotherClock) {
+  const ScratchFolder folder;
+  folder.write("run.clf", kGoodLog);
+  folder.write("run.tum", "1000 0 0 0 0 0 0 1\n2000 1 0 0 0 0 0 1\n");
+  expect_refused(
+      folder, "run --system karto --dataset run.clf --out o",
+      {"run.tum", "no stamp in common", "1000.000 s to 2000.000 s", "1.000 s to 1.100 s"});
+}
+
+TEST(BadRequest, IsToldWithoutControlCharacters) {
+  const ScratchFolder folder;
+  for (const std::string command : {"run", "data verify", "", "run --system karto --dataset"}) {
+    const Answer answer = run_program(folder, command + " \"$(printf 'a\\033[31mb\\rc')\"");
+    EXPECT_EQ(answer.exit_code, 2) << command;
+    EXPECT_NE(answer.err.find("a\\x1b[31mb\\x0dc"), std::string::npos) << answer.err;
+    EXPECT_EQ(answer.err.find_first_of("\x1b\r"), std::string::npos) << command;
+  }
+}
+
+TEST(BadRequest, AResultThatCannotBeWrittenIsAFailureOfTheCase) {
+  const ScratchFolder folder;
+  folder.write("one.toml",
+               "name = \"one\"\nsystems = [\"fusion-paper\"]\nscenarios = [\"paper-corridor\"]\n");
+  ASSERT_EQ(run_program(folder, "run one.toml --out o --no-report").exit_code, 0);
+  const std::string id = contents_of(folder / "o" / "runs").front();
+  std::filesystem::copy_file(folder / "o" / "runs" / id / "spec.json", folder / "spec.json");
+  std::filesystem::remove_all(folder / "o");
+  // A limit on the size of files stands for a full disk: 100 KiB hold the store, not the poses.
+  const std::string limits = "ulimit -f 100; trap '' XFSZ; ";
+  const Answer alone = run_program(folder, "run-case spec.json --out o", limits);
+  EXPECT_EQ(alone.exit_code, 4);
+  EXPECT_EQ(alone.num_error_lines(), 1) << alone.err;
+  EXPECT_NE(alone.err.find("File too large"), std::string::npos) << alone.err;
+  EXPECT_EQ(contents_of(folder / "o"), std::vector<std::string>{"runs"});
+  const Answer run = run_program(folder, "run one.toml --out o --no-report", limits);
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_NE(run.out.find(": failed, "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("File too large"), std::string::npos) << run.out;
+  EXPECT_EQ(run_program(folder, "run one.toml --out p --no-report", "ulimit -f 1; trap '' XFSZ; ")
+                .exit_code,
+            2)
+      << "no store, no answer";
 }
 
 }  // namespace

@@ -151,6 +151,33 @@ TEST(Run, GivesTheSameTrajectoriesTwiceAndForAnyNumberOfJobs) {
   EXPECT_TRUE(fs::exists(folder / "report" / "index.html"));
 }
 
+TEST(Run, SaysWhatIsInItsFolderFromRunsBefore) {
+  const ScratchFolder folder;
+  const Answer first = run_smoke(folder, "--system fusion-paper --out o --no-report");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out.find("earlier runs"), std::string::npos) << first.out;
+  const Answer again = run_smoke(folder, "--system fusion-paper --out o --no-report");
+  EXPECT_EQ(again.out.find("earlier runs"), std::string::npos) << "its cases are replaced";
+  const Answer other = run_smoke(folder, "--system fusion-paper --seed 9 --out o --no-report");
+  EXPECT_NE(other.out.find("/o: 1 case of earlier runs (suite smoke) stay here"), std::string::npos)
+      << other.out;
+}
+
+TEST(Run, LeavesAFolderToTheRunThatIsWritingToIt) {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "o");
+  const std::string holder = "flock o/.lock '" CORRIDOR_BINARY_DIR "/bin/corridor-bench' ";
+  const Answer second = run_program(
+      folder, "--version >/dev/null; " + holder + "run smoke --seeds 1 --out o --no-report");
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_EQ(second.num_error_lines(), 1) << second.err;
+  EXPECT_NE(second.err.find("/o: another run is writing to this folder; expected its end, or "
+                            "another --out"),
+            std::string::npos)
+      << second.err;
+  EXPECT_FALSE(fs::exists(folder / "o" / "results.sqlite"));
+}
+
 TEST(Run, EndsWithOneIfACaseFails) {
   const ScratchFolder folder;
   folder.write("quick.toml",

@@ -30,10 +30,11 @@ inline std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// Runs in `folder`; `arguments` are words of a shell command line.
-inline Answer run_program(const ScratchFolder& folder, const std::string& arguments) {
+// Runs in `folder`; `arguments` are words of a shell command line, before which `first` is done.
+inline Answer run_program(const ScratchFolder& folder, const std::string& arguments,
+                          const std::string& first = "") {
   const ScratchFolder said;
-  const std::string command = "cd '" + folder.path().string() +
+  const std::string command = first + "cd '" + folder.path().string() +
                               "' && '" CORRIDOR_BINARY_DIR "/bin/corridor-bench' " + arguments +
                               " >'" + (said / "out").string() + "' 2>'" + (said / "err").string() +
                               "' </dev/null";

@@ -22,7 +22,12 @@ ChildTask shell(const testing::ScratchFolder& folder, const std::string& script,
 ChildResult run_one(const ChildTask& task) {
   ChildResult result;
   EXPECT_TRUE(run_children(
-      {task}, 1, [&](std::size_t, const ChildResult& r) { result = r; }, [] {}));
+      {task}, 1,
+      [&](std::size_t, const ChildResult& r) {
+        result = r;
+        return true;
+      },
+      [] {}));
   return result;
 }
 
@@ -81,11 +86,26 @@ TEST(ChildPool, FinishesEveryTaskOnceForAnyNumberOfJobs) {
         tasks, num_jobs,
         [&](std::size_t index, const ChildResult& r) {
           EXPECT_TRUE(codes.emplace(index, r.exit_code).second);
+          return true;
         },
         [] {}));
     ASSERT_EQ(codes.size(), tasks.size());
     for (const auto& [index, code] : codes) EXPECT_EQ(code, static_cast<int>(index));
   }
+}
+
+TEST(ChildPool, StopsWhereItsCallerDoesAndLeavesNoChild) {
+  const testing::ScratchFolder folder;
+  // The first ends when the second has begun.
+  const std::vector<ChildTask> tasks = {
+      shell(folder, "while [ ! -s '" + (folder / "output1").string() + "' ]; do :; done", 0),
+      shell(folder, "echo $$; exec sleep 60", 1), shell(folder, "echo third", 2)};
+  int num_finished = 0;
+  EXPECT_FALSE(run_children(
+      tasks, 2, [&](std::size_t, const ChildResult&) { return ++num_finished < 1; }, [] {}));
+  EXPECT_EQ(num_finished, 1);
+  EXPECT_EQ(kill(std::stoi(text_of(tasks[1].output_file)), 0), -1) << "the child still runs";
+  EXPECT_FALSE(std::filesystem::exists(tasks[2].output_file));
 }
 
 TEST(ChildPool, StopsAtAnInterruptAndLeavesNoChild) {
@@ -97,7 +117,7 @@ TEST(ChildPool, StopsAtAnInterruptAndLeavesNoChild) {
   int num_finished = 0;
   bool is_raised = false;
   const bool is_complete = run_children(
-      tasks, 1, [&](std::size_t, const ChildResult&) { ++num_finished; },
+      tasks, 1, [&](std::size_t, const ChildResult&) { return ++num_finished > 0; },
       [&] {
         if (text_of(tasks[0].output_file).empty() || is_raised) return;
         is_raised = true;

@@ -42,26 +42,37 @@ class RunPlanTest : public ::testing::Test {
     const fs::path program = folder_.write("program.sh", "#!/bin/sh\n" + script);
     fs::permissions(program, fs::perms::owner_all);
     RunOptions options;
-    options.out = out();
     options.executable = program;
     options.is_resumed = is_resumed;
     options.is_quiet = true;
-    return run_plan({cases, {}}, options);
+    options.num_jobs = num_jobs_;
+    const Result<FolderLock> lock = FolderLock::take(out());
+    if (!lock) return tl::make_unexpected(lock.error());
+    return run_plan({cases, {}}, *lock, options);
+  }
+
+  [[nodiscard]] std::vector<results::RunResult> stored() const {
+    return results::ResultsStore::open_read_only(out() / "results.sqlite")->read_all().value();
   }
 
   // The one record of the store, which must be that of result.json.
-  results::RunResult only_record() {
-    const auto stored =
-        results::ResultsStore::open_read_only(out() / "results.sqlite")->read_all().value();
-    EXPECT_EQ(stored.size(), 1U);
-    const auto file = results::read_result(case_folder(out(), stored[0].case_id) / "result.json");
-    EXPECT_EQ(results::to_json(file.value()), results::to_json(stored[0]));
-    return stored[0];
+  [[nodiscard]] results::RunResult only_record() const {
+    const auto records = stored();
+    EXPECT_EQ(records.size(), 1U);
+    const auto file = results::read_result(case_folder(out(), records[0].case_id) / "result.json");
+    EXPECT_EQ(results::to_json(file.value()), results::to_json(records[0]));
+    return records[0];
+  }
+
+  [[nodiscard]] std::string text_in(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
   }
 
   [[nodiscard]] fs::path out() const { return folder_ / "out"; }
 
   testing::ScratchFolder folder_;
+  int num_jobs_ = 1;
 };
 
 TEST_F(RunPlanTest, MakesARowOfACrash) {
@@ -97,6 +108,56 @@ TEST_F(RunPlanTest, MakesARowOfBadInputWithTheLineThatSaysWhy) {
       run({spec_of(1)}, "echo 'corridor-bench: log.clf: truncated' >&2; exit 2").has_value());
   EXPECT_EQ(only_record().status, CaseStatus::kBadInput);
   EXPECT_EQ(only_record().status_message, "corridor-bench: log.clf: truncated");
+}
+
+TEST_F(RunPlanTest, MakesAFailureNotBadInputOfResultsThatCannotBeWritten) {
+  ASSERT_TRUE(run({spec_of(1)}, "echo 'map.pgm: no space left' >&2; exit 4").has_value());
+  EXPECT_EQ(only_record().status, CaseStatus::kFailed);
+  EXPECT_EQ(only_record().status_message, "map.pgm: no space left");
+}
+
+TEST_F(RunPlanTest, StopsAtTheFirstRecordThatCannotBeKept) {
+  // A file where the folders of the cases should be.
+  const auto stopped = run({spec_of(1), spec_of(2), spec_of(3)},
+                           "echo x >> \"$(dirname \"$0\")/calls\"; rm -rf \"$4/runs\"; "
+                           "echo > \"$4/runs\"; exit 2");
+  EXPECT_FALSE(stopped.has_value());
+  EXPECT_EQ(text_in("calls"), "x\n");
+}
+
+TEST_F(RunPlanTest, CountsTheCasesOfOtherRunsThatStayInTheFolder) {
+  const auto first = run({spec_of(1), spec_of(2)}, "exit 2");
+  EXPECT_EQ(first->num_earlier, 0U);
+  CaseSpec changed = spec_of(2);
+  changed.suite = "another";
+  const auto second = run({spec_of(1), changed}, "exit 2");
+  EXPECT_EQ(second->num_earlier, 1U) << "seed 2 of the first suite";
+  EXPECT_NE(text_in("out/log.txt").find("1 case of earlier runs (suite test)"), std::string::npos);
+}
+
+TEST_F(RunPlanTest, RefusesAFolderWithAnotherDataSetOfTheSameName) {
+  CaseSpec other = spec_of(1);
+  other.data_digest = "one";
+  ASSERT_TRUE(run({other}, "exit 2").has_value());
+  CaseSpec mine = spec_of(2);
+  mine.data_digest = "two";
+  const auto refused = run({mine}, "exit 2");
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().what.find("paper-corridor"), std::string::npos);
+  // The same case with new data takes the old one's place.
+  other.data_digest = "two";
+  EXPECT_TRUE(run({other}, "exit 2").has_value());
+}
+
+TEST_F(RunPlanTest, RecordsHowManyCasesRanAtATime) {
+  const std::string script = "echo \"$6 $7\" >> \"$(dirname \"$0\")/calls\"; exit 2";
+  num_jobs_ = 8;
+  ASSERT_TRUE(run({spec_of(1)}, script).has_value());
+  EXPECT_EQ(only_record().jobs, 1) << "one case has nobody beside it";
+  EXPECT_EQ(text_in("calls"), "--jobs 1\n");
+  ASSERT_TRUE(run({spec_of(1), spec_of(2)}, script).has_value());
+  for (const results::RunResult& record : stored()) EXPECT_EQ(record.jobs, 2);
+  EXPECT_EQ(text_in("calls"), "--jobs 1\n--jobs 2\n--jobs 2\n");
 }
 
 TEST_F(RunPlanTest, DoesNotTakeTheRecordOfAnEarlierRunForThatOfACrash) {
@@ -145,7 +206,7 @@ TEST_F(RunPlanTest, RunsEverythingAgainWithoutResume) {
   ASSERT_TRUE(run({spec_of(1)}, kCounting).has_value());
   ASSERT_TRUE(run({spec_of(1)}, kCounting).has_value());
   EXPECT_EQ(num_calls(folder_), 2U);
-  only_record();
+  EXPECT_EQ(stored().size(), 1U);
 }
 
 TEST(WriteFolderAtomically, ReplacesAnOlderFolderAndLeavesNothingAfterAnError) {
