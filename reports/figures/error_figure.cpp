@@ -20,12 +20,12 @@ using reports::Series;
 using tables::WorldValues;
 
 constexpr double kWidth_px = 960;
-constexpr double kLabelWidth_px = 190;
 constexpr double kGap_px = 34;
 constexpr double kRow_px = 40;
-constexpr double kTop_px = 34;
+constexpr double kTop_px = 38;
 constexpr double kBottom_px = 44;
 constexpr double kDotRadius_px = 4;
+constexpr double kSmallFont_px = 11;
 constexpr double kAxisMargin_ratio = 1.3;  // free space beyond the smallest and largest value
 // Dots of neighbouring worlds are set apart across the axis, by a fixed pattern.
 constexpr int kJitterLevels = 5;
@@ -63,7 +63,9 @@ std::vector<Row> load_rows(const Cases& cases, const std::string& dataset, bool 
             cases.label(series),
             tables::world_values(cases, dataset, series, metric),
             {},
-            is_paper ? published_error(series.system, is_position) : std::nullopt};
+            is_paper && tables::is_paper_counterpart(cases, series)
+                ? published_error(series.system, is_position)
+                : std::nullopt};
     const tables::Cell cell = tables::summarise(cases, dataset, series, metric);
     if (const auto* estimate = std::get_if<tables::Estimate>(&cell)) row.estimate = *estimate;
     rows.push_back(std::move(row));
@@ -94,7 +96,7 @@ void draw_axis(Svg& svg, const Plot& plot, const LogScale& scale, double low, do
   for (const Tick& tick : log_ticks(low, high)) {
     const double x_px = scale(tick.value);
     svg.line(x_px, kTop_px, x_px, bottom_px, "grid");
-    const double half_px = 0.5 * text_width_px(tick.label, 11) + 3;
+    const double half_px = 0.5 * text_width_px(tick.label, kSmallFont_px) + 3;
     if (x_px - half_px < last_label_px) continue;
     svg.text(x_px, bottom_px + 16, tick.label, "small", Anchor::kMiddle);
     last_label_px = x_px + half_px;
@@ -124,6 +126,25 @@ void draw_row(Svg& svg, const Row& row, const LogScale& scale, double y_px) {
   }
 }
 
+// What marks and lines mean, for a figure that stands alone.
+void draw_legend(Svg& svg, double x_px, bool has_paper) {
+  const double y_px = 14;
+  const auto say = [&](const std::string& text) {
+    svg.text(x_px + 16, y_px + 4, text, "small");
+    x_px += 40 + text_width_px(text, kSmallFont_px);
+  };
+  svg.marker(Marker::kCircle, x_px + 4, y_px, kDotRadius_px, "muted");
+  say("one world");
+  svg.line(x_px + 4, y_px - 8, x_px + 4, y_px + 8, "interval");
+  say("median");
+  svg.line(x_px - 6, y_px, x_px + 10, y_px, "interval");
+  say("its 95 % bootstrap interval");
+  if (!has_paper) return;
+  svg.line(x_px - 1, y_px - 5, x_px + 9, y_px + 5, "axis");
+  svg.line(x_px - 1, y_px + 5, x_px + 9, y_px - 5, "axis");
+  say("the paper");
+}
+
 void draw_plot(Svg& svg, const Plot& plot, const std::vector<Row>& rows, const std::string& title) {
   const auto range = positive_range(rows);
   if (!range) {
@@ -147,18 +168,21 @@ std::optional<Figure> error_figure(const Cases& cases, const std::string& datase
   const std::vector<Row> angle = load_rows(cases, dataset, false);
   if (!positive_range(position)) return std::nullopt;
   const double height_px = kRow_px * static_cast<double>(position.size());
-  const double width_px = (kWidth_px - kLabelWidth_px - 2 * kGap_px) / 2;
+  std::vector<std::string> labels;
+  for (const Row& row : position) labels.push_back(row.label);
+  const double label_px = label_column_px(labels);
+  const double width_px = (kWidth_px - label_px - 2 * kGap_px) / 2;
   Svg svg("errors-" + reports::file_name_from(dataset), kWidth_px, kTop_px + height_px + kBottom_px,
           fmt::format("Position and angle errors on {}", dataset),
           "One dot per world and system on logarithmic axes, with median and interval");
   double y_px = kTop_px + 0.5 * kRow_px;
   for (const Row& row : position) {
-    svg.text(kLabelWidth_px - 12, y_px + 4, row.label, "", Anchor::kEnd);
+    svg.text(label_px - 12, y_px + 4, elided(row.label, label_px - 20), "", Anchor::kEnd);
     y_px += kRow_px;
   }
-  draw_plot(svg, {kLabelWidth_px, width_px, height_px}, position, "position error [m]");
-  draw_plot(svg, {kLabelWidth_px + width_px + kGap_px, width_px, height_px}, angle,
-            "angle error [deg]");
+  draw_legend(svg, label_px, tables::is_paper_world(cases, dataset));
+  draw_plot(svg, {label_px, width_px, height_px}, position, "position error [m]");
+  draw_plot(svg, {label_px + width_px + kGap_px, width_px, height_px}, angle, "angle error [deg]");
   return Figure{
       std::move(svg),
       fmt::format("Position and angle error on {} (RMSE of the final trajectory, first "

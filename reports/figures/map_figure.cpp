@@ -122,7 +122,7 @@ double aspect_ratio(const std::vector<Bounds>& bounds) {
 
 void draw_panel(Svg& svg, const Panel& panel, const Bounds& bounds, double x_px, double y_px,
                 double width_px, double height_px) {
-  svg.text(x_px + 2, y_px + 17, panel.heading);
+  svg.text(x_px + 2, y_px + 17, elided(panel.heading, width_px));
   const double top_px = y_px + kHeading_px;
   svg.rect(x_px, top_px, width_px, height_px, "panel");
   const PlaneFrame frame(bounds, x_px, top_px, width_px, height_px, kPanelMargin_px);

@@ -40,7 +40,7 @@ std::optional<Figure> map_figure(const reports::Cases& cases, const std::string&
                                  std::vector<std::string>& problems);
 // Every world's position and angle error per system on logarithmic axes.
 std::optional<Figure> error_figure(const reports::Cases& cases, const std::string& dataset);
-// Share of each stage in the time of the steps.
+// Time of a step and of each stage: median, 95 % quantile, maximum, and the share of all time.
 std::optional<Figure> stage_figure(const reports::Cases& cases, const std::string& dataset);
 
 // All of the above for every data set, in the order of the page.

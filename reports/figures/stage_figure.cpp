@@ -1,126 +1,230 @@
-// Where the time of the steps goes: one bar of shares per system.
+// Where the time of a step goes: per system its steps, then its stages, on one logarithmic axis.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
+#include "bench/statistics/quantiles.hpp"
 #include "reports/escape.hpp"
 #include "reports/figures/report_figures.hpp"
+#include "reports/figures/scale.hpp"
+#include "reports/figures/series_styles.hpp"
 #include "reports/metrics.hpp"
+#include "reports/timing.hpp"
 #include "slam/core/stage_clock.hpp"
 
 namespace corridor::figures {
 namespace {
 
+using reports::Case;
 using reports::Cases;
 using reports::Series;
 
 constexpr double kWidth_px = 960;
-constexpr double kLabelWidth_px = 190;
-constexpr double kNoteWidth_px = 250;
-constexpr double kRow_px = 34;
-constexpr double kBar_px = 20;
-constexpr double kLegendRow_px = 22;
-constexpr double kSwatch_px = 12;
+constexpr double kNoteWidth_px = 210;
+constexpr double kShareBar_px = 90;
+constexpr double kTop_px = 30;
+constexpr double kBottom_px = 44;
+constexpr double kRow_px = 19;
+constexpr double kGroupGap_px = 12;
+constexpr double kDotRadius_px = 4.5;
+constexpr double kAxisMargin_ratio = 1.5;
+constexpr double kMsPerUs = 1e-3;
+// Stages that took less of the time are left out.
+constexpr double kMinShare_ratio = 0.01;
 
-struct Bar {
-  std::string label;
-  std::array<double, kNumStages> total_s{};
-  double sum_s = 0;
-  std::string note;
+struct Times {
+  double p50_ms = 0, p95_ms = 0, max_ms = 0;
 };
 
-std::string note_of(const Cases& cases, const std::string& dataset, const Series& series) {
-  const tables::Metric step = {"step_p50_us", "", "us", 0,
-                               [](const results::RunResult& r) { return r.step_p50_us; }};
-  const auto text = [&](const tables::Metric& metric) -> std::optional<double> {
-    const tables::Cell cell = tables::summarise(cases, dataset, series, metric);
-    const auto* estimate = std::get_if<tables::Estimate>(&cell);
-    return estimate == nullptr ? std::nullopt : std::optional(estimate->median);
-  };
-  std::string note;
-  if (const auto us = text(step)) note = fmt::format("step {:.3g} ms", *us / 1000);
-  if (const auto factor = text(reports::realtime_factor())) {
-    note += fmt::format("{}{:.3g} × real time", note.empty() ? "" : ", ", *factor);
+struct StageRow {
+  std::string_view stage;
+  Times times;
+  double share_ratio = 0;
+  double count = 0;  // steps of a run that entered the stage
+};
+
+// One system: its steps as a whole, and the stages that matter, in their order.
+struct Group {
+  std::string label;
+  const SeriesStyle* style = nullptr;
+  std::optional<Times> step;
+  std::optional<double> realtime_factor;
+  std::vector<StageRow> stages;
+};
+
+// Medians over runs, but the largest maximum of all.
+std::optional<Times> pooled(const std::vector<Times>& runs) {
+  if (runs.empty()) return std::nullopt;
+  std::vector<double> p50_ms;
+  std::vector<double> p95_ms;
+  Times all;
+  for (const Times& run : runs) {
+    p50_ms.push_back(run.p50_ms);
+    p95_ms.push_back(run.p95_ms);
+    all.max_ms = std::max(all.max_ms, run.max_ms);
   }
-  return note;
+  all.p50_ms = *statistics::median(p50_ms);
+  all.p95_ms = *statistics::median(p95_ms);
+  return all;
 }
 
-std::vector<Bar> load_bars(const Cases& cases, const std::string& dataset) {
-  std::vector<Bar> bars;
-  for (const Series& series : cases.series()) {
-    Bar bar{cases.label(series), {}, 0, note_of(cases, dataset, series)};
-    for (const reports::Case* entry : cases.of(dataset, series)) {
+std::optional<Times> step_times(const std::vector<const Case*>& cases) {
+  std::vector<Times> runs;
+  for (const Case* entry : cases) {
+    const results::RunResult& r = entry->result;
+    if (!r.step_p50_us || !r.step_p95_us || !r.step_max_us) continue;
+    runs.push_back(
+        {*r.step_p50_us * kMsPerUs, *r.step_p95_us * kMsPerUs, *r.step_max_us * kMsPerUs});
+  }
+  return pooled(runs);
+}
+
+double total_time_s(const std::vector<const Case*>& cases) {
+  double total_s = 0;
+  for (const Case* entry : cases) {
+    for (const results::StageTimes& stage : entry->result.stages) total_s += stage.total_s;
+  }
+  return total_s;
+}
+
+std::vector<StageRow> stage_rows(const std::vector<const Case*>& cases) {
+  const double all_s = total_time_s(cases);
+  std::vector<StageRow> rows;
+  for (const std::string_view name : kStageNames) {
+    std::vector<Times> runs;
+    std::vector<double> counts;
+    double total_s = 0;
+    for (const Case* entry : cases) {
       for (const results::StageTimes& stage : entry->result.stages) {
-        const auto found = std::find(kStageNames.begin(), kStageNames.end(), stage.name);
-        if (found == kStageNames.end()) continue;
-        bar.total_s[static_cast<std::size_t>(found - kStageNames.begin())] += stage.total_s;
-        bar.sum_s += stage.total_s;
+        if (stage.name != name || stage.count == 0) continue;
+        runs.push_back({stage.p50_us * kMsPerUs, stage.p95_us * kMsPerUs, stage.max_us * kMsPerUs});
+        counts.push_back(static_cast<double>(stage.count));
+        total_s += stage.total_s;
       }
     }
-    if (bar.sum_s > 0) bars.push_back(std::move(bar));
+    const auto times = pooled(runs);
+    if (!times || total_s < kMinShare_ratio * all_s) continue;
+    rows.push_back({name, *times, total_s / all_s, *statistics::median(counts)});
   }
-  return bars;
+  return rows;
 }
 
-// Height of the legend.
-double draw_legend(Svg& svg, const std::vector<Bar>& bars) {
-  double x_px = kLabelWidth_px;
-  double y_px = 10;
-  for (std::size_t stage = 0; stage < kNumStages; ++stage) {
-    const bool is_used = std::any_of(bars.begin(), bars.end(),
-                                     [&](const Bar& bar) { return bar.total_s[stage] > 0; });
-    if (!is_used) continue;
-    const double width_px = kSwatch_px + 8 + text_width_px(kStageNames[stage]) + 16;
-    if (x_px + width_px > kWidth_px) {
-      x_px = kLabelWidth_px;
-      y_px += kLegendRow_px;
+std::vector<Group> load_groups(const Cases& cases, const std::string& dataset) {
+  const SeriesStyles styles(cases);
+  std::vector<Group> groups;
+  for (const Series& series : cases.series()) {
+    const std::vector<const Case*> tried = cases.of(dataset, series);
+    Group group{cases.label(series), &styles(series), step_times(tried), {}, stage_rows(tried)};
+    const tables::Cell factor =
+        tables::summarise(cases, dataset, series, reports::realtime_factor());
+    if (const auto* estimate = std::get_if<tables::Estimate>(&factor)) {
+      group.realtime_factor = estimate->median;
     }
-    svg.rect(x_px, y_px, kSwatch_px, kSwatch_px,
-             fmt::format("fill-{}", stage_style(kStageNames[stage]).name));
-    svg.text(x_px + kSwatch_px + 6, y_px + 11, kStageNames[stage]);
-    x_px += width_px;
+    if (group.step || !group.stages.empty()) groups.push_back(std::move(group));
   }
-  return y_px + kLegendRow_px + 6;
+  return groups;
 }
 
-void draw_bar(Svg& svg, const Bar& bar, double y_px) {
-  const double width_px = kWidth_px - kLabelWidth_px - kNoteWidth_px;
-  svg.text(kLabelWidth_px - 12, y_px + 15, bar.label, "", Anchor::kEnd);
-  double x_px = kLabelWidth_px;
-  for (std::size_t stage = 0; stage < kNumStages; ++stage) {
-    const double part_px = width_px * bar.total_s[stage] / bar.sum_s;
-    if (part_px <= 0) continue;
-    svg.rect(x_px, y_px, part_px, kBar_px,
-             fmt::format("fill-{}", stage_style(kStageNames[stage]).name));
-    x_px += part_px;
+// Smallest and largest time with a margin; nothing where no time is above zero.
+std::optional<std::pair<double, double>> time_range_ms(const std::vector<Group>& groups) {
+  double low_ms = 1e300;
+  double high_ms = 0;
+  const auto include = [&](const Times& times) {
+    for (const double value_ms : {times.p50_ms, times.p95_ms, times.max_ms}) {
+      if (value_ms <= 0 || !std::isfinite(value_ms)) continue;
+      low_ms = std::min(low_ms, value_ms);
+      high_ms = std::max(high_ms, value_ms);
+    }
+  };
+  for (const Group& group : groups) {
+    if (group.step) include(*group.step);
+    for (const StageRow& row : group.stages) include(row.times);
   }
-  svg.text(kLabelWidth_px + width_px + 12, y_px + 15, bar.note, "small");
+  if (high_ms == 0) return std::nullopt;
+  return std::make_pair(low_ms / kAxisMargin_ratio, high_ms * kAxisMargin_ratio);
+}
+
+double height_of(const std::vector<Group>& groups) {
+  double height_px = 0;
+  for (const Group& group : groups) {
+    height_px += kGroupGap_px + kRow_px * static_cast<double>(1 + group.stages.size());
+  }
+  return height_px;
+}
+
+// Dot at p50, thick line to p95, thin line to the maximum with its end marked.
+void draw_times(Svg& svg, const Times& times, const LogScale& scale, double y_px,
+                const SeriesStyle& style, bool is_step) {
+  const double max_px = scale(times.max_ms);
+  svg.line(scale(times.p50_ms), y_px, max_px, y_px, "axis");
+  svg.line(max_px, y_px - 4, max_px, y_px + 4, "axis");
+  svg.line(scale(times.p50_ms), y_px, scale(times.p95_ms), y_px,
+           is_step ? "interval" : "interval thin");
+  svg.marker(style.marker, scale(times.p50_ms), y_px, is_step ? kDotRadius_px : 3,
+             fmt::format("fill-{}", style.name));
+}
+
+void draw_group(Svg& svg, const Group& group, const LogScale& scale, double label_px,
+                double& y_px) {
+  const double note_px = kWidth_px - kNoteWidth_px + 14;
+  svg.text(label_px - 12, y_px + 4, elided(group.label, label_px - 20), "strong", Anchor::kEnd);
+  if (group.step) draw_times(svg, *group.step, scale, y_px, *group.style, true);
+  if (group.realtime_factor) {
+    svg.text(note_px, y_px + 4, fmt::format("{:.0f} × real time", *group.realtime_factor), "small");
+  }
+  for (const StageRow& row : group.stages) {
+    y_px += kRow_px;
+    svg.text(label_px - 12, y_px + 4, row.stage, "small muted", Anchor::kEnd);
+    draw_times(svg, row.times, scale, y_px, *group.style, false);
+    svg.rect(note_px, y_px - 5, kShareBar_px * row.share_ratio, 10,
+             fmt::format("fill-{}", group.style->name));
+    svg.text(note_px + kShareBar_px + 6, y_px + 4,
+             fmt::format("{:.0f} %, n = {:.0f}", 100 * row.share_ratio, row.count), "small");
+  }
+  y_px += kRow_px + kGroupGap_px;
+}
+
+void draw_axis(Svg& svg, const LogScale& scale, const std::pair<double, double>& range_ms,
+               double left_px, double bottom_px) {
+  const double right_px = kWidth_px - kNoteWidth_px;
+  for (const Tick& tick : log_ticks(range_ms.first, range_ms.second)) {
+    const double x_px = scale(tick.value);
+    svg.line(x_px, kTop_px - 8, x_px, bottom_px, "grid");
+    svg.text(x_px, bottom_px + 16, tick.label, "small", Anchor::kMiddle);
+  }
+  svg.line(left_px, bottom_px, right_px, bottom_px, "axis");
+  svg.text(0.5 * (left_px + right_px), bottom_px + 36, "time [ms]", "", Anchor::kMiddle);
+  svg.text(right_px + 14, kTop_px - 14, "share of all time, steps a run", "small muted");
+  svg.text(left_px, kTop_px - 14, "dot: p50; thick: to p95; thin: to the largest", "small muted");
 }
 
 }  // namespace
 
 std::optional<Figure> stage_figure(const Cases& cases, const std::string& dataset) {
-  const std::vector<Bar> bars = load_bars(cases, dataset);
-  if (bars.empty()) return std::nullopt;
-  Svg measured("", kWidth_px, 0, "", "");
-  const double legend_px = draw_legend(measured, bars);
-  Svg svg("stages-" + reports::file_name_from(dataset), kWidth_px,
-          legend_px + kRow_px * static_cast<double>(bars.size()) + 8,
-          fmt::format("Time per stage on {}", dataset),
-          "One bar per system: share of each stage in the time of all steps");
-  draw_legend(svg, bars);
-  double y_px = legend_px;
-  for (const Bar& bar : bars) {
-    draw_bar(svg, bar, y_px);
-    y_px += kRow_px;
-  }
+  const std::vector<Group> groups = load_groups(cases, dataset);
+  const auto range_ms = time_range_ms(groups);
+  if (!range_ms) return std::nullopt;
+  std::vector<std::string> labels;
+  for (const Group& group : groups) labels.push_back(group.label);
+  const double label_px = label_column_px(labels);
+  const double bottom_px = kTop_px + height_of(groups);
+  Svg svg("stages-" + reports::file_name_from(dataset), kWidth_px, bottom_px + kBottom_px,
+          fmt::format("Time per step and stage on {}", dataset),
+          "Per system the time of a step and of each stage: median, 95 % quantile and maximum on a "
+          "logarithmic axis, with each stage's share of all time");
+  const LogScale scale(range_ms->first, range_ms->second, label_px, kWidth_px - kNoteWidth_px);
+  draw_axis(svg, scale, *range_ms, label_px, bottom_px);
+  double y_px = kTop_px + 0.5 * kGroupGap_px + 0.5 * kRow_px;
+  for (const Group& group : groups) draw_group(svg, group, scale, label_px, y_px);
   return Figure{
       std::move(svg),
-      fmt::format("Share of each stage in the time of step() and finish() on {}, all runs "
-                  "together; at the right the median step and the median real-time factor "
-                  "(above 1: faster than the robot drove).",
-                  dataset)};
+      fmt::format(
+          "Time on {}. Bold: a scan's step; below it the stages, over the steps that entered them "
+          "(n a run; below 1 % of the time left out). p50 and p95 are medians over runs, the "
+          "largest is that of all runs. A system that works on few chosen scans has a small p50 "
+          "and says its cost in p95 and the largest. {}",
+          dataset, reports::timing_notes(cases).front())};
 }
 
 }  // namespace corridor::figures

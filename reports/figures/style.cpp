@@ -9,6 +9,10 @@
 namespace corridor::figures {
 namespace {
 
+constexpr double kLabelGap_px = 24;
+constexpr double kMinLabelColumn_px = 150;
+constexpr double kMaxLabelColumn_px = 330;
+
 constexpr SeriesStyle kTruth{"truth", "#111111", "#f2f2f2", "", Marker::kCircle};
 
 struct NamedStyle {
@@ -37,20 +41,6 @@ constexpr std::array kSpares = {
     SeriesStyle{"spare-5", "#CC6677", "#e58c9b", "1 3", Marker::kSquare},
 };
 
-// [Tol2021] muted, which has nine colours and grey: as many as there are stages.
-constexpr std::array kStages = {
-    NamedStyle{"preprocess", {"stage-preprocess", "#88CCEE", "#88CCEE", "", {}}},
-    NamedStyle{"predict", {"stage-predict", "#44AA99", "#44AA99", "", {}}},
-    NamedStyle{"match", {"stage-match", "#332288", "#6f5fd0", "", {}}},
-    NamedStyle{"map_update", {"stage-map-update", "#DDCC77", "#DDCC77", "", {}}},
-    NamedStyle{"graph", {"stage-graph", "#117733", "#2c9c55", "", {}}},
-    NamedStyle{"optimise", {"stage-optimise", "#CC6677", "#CC6677", "", {}}},
-    NamedStyle{"loop_search", {"stage-loop-search", "#882255", "#b8457f", "", {}}},
-    NamedStyle{"resample", {"stage-resample", "#999933", "#999933", "", {}}},
-    NamedStyle{"finish", {"stage-finish", "#AA4499", "#c967b8", "", {}}},
-    NamedStyle{"other", {"stage-other", "#AAAAAA", "#888888", "", {}}},
-};
-
 template <std::size_t kCount>
 const SeriesStyle* find_style(const std::array<NamedStyle, kCount>& styles, std::string_view name) {
   const auto* found = std::find_if(styles.begin(), styles.end(),
@@ -61,7 +51,7 @@ const SeriesStyle* find_style(const std::array<NamedStyle, kCount>& styles, std:
 constexpr std::string_view kLightCss =
     ".figure text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;font-size:13px;fill:#1a1a1a}"
     ".figure .small{font-size:11px}.figure .title{font-size:14px;font-weight:bold}"
-    ".figure .muted{fill:#595959}"
+    ".figure .strong{font-weight:bold}.figure .muted{fill:#595959}"
     ".figure .paper{fill:#ffffff}.figure .panel{fill:#dfdfda;stroke:#c9c9c4;stroke-width:1}"
     ".figure .axis{stroke:#595959;stroke-width:1;fill:none}"
     ".figure .grid{stroke:#dcdcd8;stroke-width:1;fill:none}"
@@ -69,7 +59,7 @@ constexpr std::string_view kLightCss =
     ".figure .wall-over{stroke:#c8102e;stroke-width:1.2;fill:none}"
     ".figure .dimension{stroke:#0072B2;stroke-width:1.4;fill:none}"
     ".figure .dimension-head{fill:#0072B2}"
-    ".figure .interval{stroke:#1a1a1a;stroke-width:2;fill:none}"
+    ".figure .interval{stroke:#1a1a1a;stroke-width:2.4;fill:none}.figure .thin{stroke-width:1.6}"
     ".figure .hint{stroke:#8a8a84;stroke-width:1.5;stroke-dasharray:1 "
     "5;stroke-linecap:round;fill:none}"
     ".figure .halo{stroke:#ffffff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}"
@@ -89,7 +79,6 @@ void for_each_style(Visit&& visit) {
   visit(kTruth);
   for (const NamedStyle& entry : kSystems) visit(entry.style);
   for (const SeriesStyle& style : kSpares) visit(style);
-  for (const NamedStyle& entry : kStages) visit(entry.style);
 }
 
 }  // namespace
@@ -99,11 +88,6 @@ const SeriesStyle* system_style(std::string_view system) { return find_style(kSy
 const SeriesStyle& spare_style(std::size_t index) { return kSpares[index % kSpares.size()]; }
 
 const SeriesStyle& truth_style() { return kTruth; }
-
-const SeriesStyle& stage_style(std::string_view stage) {
-  const SeriesStyle* found = find_style(kStages, stage);
-  return found != nullptr ? *found : kStages.back().style;
-}
 
 std::string figure_css() {
   std::string light(kLightCss);
@@ -124,6 +108,25 @@ double text_width_px(std::string_view text, double font_size_px) {
     return (static_cast<unsigned char>(character) & 0xC0U) != 0x80U;
   });
   return static_cast<double>(num_characters) * kCharacterWidth_ratio * font_size_px;
+}
+
+std::string elided(std::string_view text, double width_px) {
+  if (text_width_px(text) <= width_px) return std::string(text);
+  std::size_t end = text.size();
+  const auto is_inside_character = [&] {
+    return end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U;
+  };
+  do {
+    do --end;
+    while (is_inside_character());
+  } while (end > 0 && text_width_px(text.substr(0, end)) + kFontSize_px > width_px);
+  return std::string(text.substr(0, end)) + "…";
+}
+
+double label_column_px(const std::vector<std::string>& labels) {
+  double widest_px = 0;
+  for (const std::string& label : labels) widest_px = std::max(widest_px, text_width_px(label));
+  return std::clamp(widest_px + kLabelGap_px, kMinLabelColumn_px, kMaxLabelColumn_px);
 }
 
 }  // namespace corridor::figures

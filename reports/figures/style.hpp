@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace corridor::figures {
 
@@ -31,13 +32,15 @@ const SeriesStyle* system_style(std::string_view system);
 // Styles for everything else; they repeat after six.
 const SeriesStyle& spare_style(std::size_t index);
 const SeriesStyle& truth_style();
-// Colours of parts of a bar: one per stage of slam/core/stage_clock.hpp.
-const SeriesStyle& stage_style(std::string_view stage);
 
 // The style sheet of all figures, for light and dark: stands in each SVG file and once in the page.
 std::string figure_css();
 
 // Estimated width of a text [px].
 double text_width_px(std::string_view text, double font_size_px = kFontSize_px);
+// The text, or as much of its beginning as fits with an ellipsis.
+std::string elided(std::string_view text, double width_px);
+// Width of a column of labels at the left of a figure: as wide as they need, within limits.
+double label_column_px(const std::vector<std::string>& labels);
 
 }  // namespace corridor::figures

@@ -74,13 +74,13 @@ void draw_legend(Svg& svg, const World& world) {
   double y_px = 40;
   const auto entry = [&](const SeriesStyle& style, const std::string& label) {
     svg.line(x_px, y_px, x_px + 34, y_px, fmt::format("path line-{}", style.name));
-    svg.text(x_px + 44, y_px + 4, label);
+    svg.text(x_px + 44, y_px + 4, elided(label, kLegendWidth_px - 62));
     y_px += kLegendLine_px;
   };
   entry(truth_style(), "truth");
   for (const Drawn& drawn : world.estimates) {
     entry(*drawn.style,
-          drawn.error_m ? fmt::format("{}: {:.3f} m", drawn.label, *drawn.error_m) : drawn.label);
+          drawn.error_m ? fmt::format("{:.3f} m  {}", *drawn.error_m, drawn.label) : drawn.label);
   }
 }
 

@@ -34,7 +34,8 @@ Cell optional_number(std::optional<double> value, int decimals, const std::strin
   return Missing{reason};
 }
 
-void append_paper(const Series& series, bool is_paper, std::vector<Cell>& row) {
+void append_paper(const Series& series, bool is_paper, bool is_counterpart,
+                  std::vector<Cell>& row) {
   if (!is_paper) {
     row.insert(row.end(), {Missing{"other world"}, Missing{"other world"}});
     return;
@@ -42,7 +43,7 @@ void append_paper(const Series& series, bool is_paper, std::vector<Cell>& row) {
   const auto found = std::find_if(
       reports::kPaperTable2.begin(), reports::kPaperTable2.end(),
       [&](const reports::PublishedError& published) { return published.system == series.system; });
-  if (found == reports::kPaperTable2.end()) {
+  if (!is_counterpart || found == reports::kPaperTable2.end()) {
     row.insert(row.end(), {Missing{"not given"}, Missing{"not given"}});
   } else {
     row.insert(row.end(), {Number{found->position_m, 4}, Number{found->angle_deg, 3}});
@@ -119,7 +120,8 @@ Table trajectory_error_table(const Cases& cases) {
                                             3, "not measured"));
       rows[index].push_back(fmt::format("{}/{}", num_ok_worlds(cases, dataset, series),
                                         num_worlds(cases, dataset, series)));
-      append_paper(series, is_paper_world(cases, dataset), rows[index]);
+      append_paper(series, is_paper_world(cases, dataset), is_paper_counterpart(cases, series),
+                   rows[index]);
     }
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
   }

@@ -45,4 +45,11 @@ bool is_paper_world(const reports::Cases& cases, const std::string& dataset) {
   return true;
 }
 
+bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series) {
+  for (const reports::Series& other : cases.series()) {
+    if (other.system == series.system) return other.profile == series.profile;
+  }
+  return false;
+}
+
 }  // namespace corridor::tables

@@ -16,4 +16,8 @@ std::set<double> true_values(const reports::Cases& cases, const std::string& dat
 // of one's own has no data seed, whatever lies beside it.
 bool is_paper_world(const reports::Cases& cases, const std::string& dataset);
 
+// The paper's figures stand beside the profile of a system that comes first in reports (as
+// shipped), not beside variants of it.
+bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series);
+
 }  // namespace corridor::tables

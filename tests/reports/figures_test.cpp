@@ -8,6 +8,7 @@
 #include "reports/figures/scale.hpp"
 #include "reports/figures/series_styles.hpp"
 #include "reports/figures/svg.hpp"
+#include "reports/tables/paper_world.hpp"
 #include "tests/reports/synthetic_run.hpp"
 
 namespace corridor::figures {
@@ -124,6 +125,57 @@ TEST(SeriesStyles, GiveProfilesOfOneSystemAndUnknownSystemsStylesOfTheirOwn) {
   EXPECT_EQ(styles({"karto", "", ""}).name, "karto");
   EXPECT_EQ(styles({"karto", "tuned", ""}).name, "spare-0");
   EXPECT_EQ(styles({"<script>", "", ""}).name, "spare-1");
+}
+
+TEST(Elided, KeepsWhatFitsAndCutsBetweenCharacters) {
+  EXPECT_EQ(elided("karto", 200), "karto");
+  const std::string cut = elided(std::string(20, 'x') + "äöüäöüäöüäöüäöü", 200);
+  EXPECT_LE(text_width_px(cut), 200);
+  EXPECT_TRUE(cut.ends_with("…"));
+  EXPECT_EQ(elided("ä", 1), "…");
+  const std::string wide = elided("ääääääääääääääääääää", 60);
+  EXPECT_EQ((wide.size() - std::string_view("…").size()) % 2, 0U);  // no half of an "ä"
+}
+
+TEST(LabelColumn, GrowsWithItsLabelsWithinLimits) {
+  EXPECT_EQ(label_column_px({"a"}), label_column_px({}));
+  EXPECT_GT(label_column_px({"karto (num_particles=99)"}), label_column_px({"karto"}));
+  EXPECT_EQ(label_column_px({std::string(300, 'x')}), label_column_px({std::string(400, 'x')}));
+}
+
+TEST(StageFigure, ShowsEveryStageThatMattersWithShareAndCount) {
+  const auto run = reports::testing::paper_like_run();
+  std::vector<reports::Case> all;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    all.push_back({reports::testing::synthetic_result(run, {"gmapping", 0.1}, seed), {}});
+    all.back().result.stages.push_back({"other", 500, 1e-4, 1, 1, 1, 1});  // below 1 %
+  }
+  const auto figure = stage_figure(reports::Cases(all, {}, {}), run.dataset);
+  ASSERT_TRUE(figure);
+  EXPECT_THAT(figure->svg.element(),
+              ::testing::AllOf(HasSubstr("time [ms]"), HasSubstr(">match<"),
+                               HasSubstr(">resample<"), HasSubstr("74 %, n = 500"),
+                               HasSubstr("85 × real time"), Not(HasSubstr(">other<"))));
+}
+
+TEST(StageFigure, WithoutTimesIsNone) {
+  std::vector<reports::Case> all(1);
+  all[0].result.system = "karto";
+  EXPECT_FALSE(stage_figure(reports::Cases(all, {}, {}), ""));
+}
+
+TEST(PaperCounterpart, IsTheShippedProfileOnly) {
+  const auto run = reports::testing::paper_like_run();
+  std::vector<reports::Case> all;
+  for (const char* profile : {"shipped", "corrected"}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      all.push_back({reports::testing::synthetic_result(run, {"karto", 0.1}, seed), {}});
+      all.back().result.profile = profile;
+    }
+  }
+  const reports::Cases cases(all, {}, {});
+  EXPECT_TRUE(tables::is_paper_counterpart(cases, cases.series()[0]));
+  EXPECT_FALSE(tables::is_paper_counterpart(cases, cases.series()[1]));
 }
 
 TEST(RepresentativeWorld, IsTheOneOfKartosMedianError) {
