@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
@@ -93,6 +95,18 @@ void append_statistics(const Cases& cases, std::vector<std::string>& sentences) 
   }
 }
 
+// What the runner noted about the scores, once for all cases that it holds for.
+void append_score_notes(const Cases& cases, std::vector<std::string>& sentences) {
+  std::map<std::pair<std::string, std::string>, int> num_cases;
+  for (const Case& entry : cases.all()) {
+    for (const std::string& note : entry.result.notes) ++num_cases[{entry.result.dataset, note}];
+  }
+  for (const auto& [key, num] : num_cases) {
+    sentences.push_back(
+        fmt::format("{}: {} ({} case{})", key.first, key.second, num, num == 1 ? "" : "s"));
+  }
+}
+
 void append_provenance(const Cases& cases, std::vector<std::string>& sentences) {
   std::set<std::string> revisions;
   for (const Case& entry : cases.all()) revisions.insert(entry.result.git_revision);
@@ -119,7 +133,8 @@ std::vector<std::string> caveats(const Cases& cases) {
   append_world(cases, sentences);
   append_statistics(cases, sentences);
   for (const std::string& note : reports::timing_notes(cases))
-    sentences.push_back("Times: " + note);
+    sentences.push_back(fmt::format("Times: {}", note));
+  append_score_notes(cases, sentences);
   append_provenance(cases, sentences);
   return sentences;
 }

@@ -68,7 +68,7 @@ Requests requests_of(const Cases& cases) {
                                        result.profile.empty() ? "" : "@",
                                        result.profile.empty() ? "" : shell_quoted(result.profile)));
     if (result.backend) request.backends[result.system].insert(shell_quoted(*result.backend));
-    request.datasets.insert(shell_quoted(result.dataset));
+    request.datasets.insert(shell_quoted(entry.dataset_given));
     if (result.data_seed) request.data_seeds.insert(*result.data_seed);
     request.system_seeds.insert(result.system_seed);
   }
