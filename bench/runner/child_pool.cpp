@@ -1,13 +1,13 @@
 #include "bench/runner/child_pool.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
+#include <ctime>
 #include <optional>
 
 #include "bench/runner/process_clock.hpp"
