@@ -45,12 +45,12 @@ void append_configuration(const Cases& cases, std::vector<std::string>& sentence
                     shipped));
   }
   if (has_system(cases, {"fusion"}) && is_simulated(cases)) {
-    sentences.push_back(
+    sentences.emplace_back(
         "fusion was developed on worlds of the same simulator, with other seeds than the suites'; "
         "no rival was adapted to it.");
   }
   if (has_system(cases, {"gmapping", "karto"})) {
-    sentences.push_back(
+    sentences.emplace_back(
         "gmapping and karto are reimplementations from papers and measured behaviour, not the "
         "original programs.");
   }
@@ -69,14 +69,14 @@ void append_world(const Cases& cases, std::vector<std::string>& sentences) {
 
 void append_sensors(const Cases& cases, std::vector<std::string>& sentences) {
   if (has_system(cases, {"fusion", "fusion-paper", "dead-reckoning-gyro"})) {
-    sentences.push_back(
+    sentences.emplace_back(
         "Only fusion, fusion-paper and dead-reckoning-gyro read the IMU; all others get wheels and "
         "LiDAR, as their programs do (dead-reckoning the wheels alone). dead-reckoning-gyro, "
         "wheels "
         "and gyro without LiDAR, is the floor: what it reaches owes nothing to scan matching.");
   }
   if (is_simulated(cases)) {
-    sentences.push_back(
+    sentences.emplace_back(
         "Simulator and estimators share the form of their error models (constant wheel scale, "
         "constant bias, white noise): systems that estimate these are favoured over what a real "
         "robot would give them.");
@@ -118,7 +118,7 @@ void append_provenance(const Cases& cases, std::vector<std::string>& sentences) 
   }
   if (std::any_of(revisions.begin(), revisions.end(),
                   [](const std::string& revision) { return revision.ends_with("+dirty"); })) {
-    sentences.push_back(
+    sentences.emplace_back(
         "A revision ending in +dirty had changes that no revision holds: these numbers cannot be "
         "made again from it with certainty.");
   }

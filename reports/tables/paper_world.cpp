@@ -35,14 +35,12 @@ bool is_paper_world(const reports::Cases& cases, const std::string& dataset) {
                   [](const reports::Case* entry) { return !entry->result.data_seed; })) {
     return false;
   }
-  for (const auto& published : reports::kPaperTable1) {
-    const std::set<double> values = true_values(cases, dataset, published.variable);
-    if (values.empty() || std::abs(*values.begin() - published.true_value) > kSameWorld ||
-        std::abs(*values.rbegin() - published.true_value) > kSameWorld) {
-      return false;
-    }
-  }
-  return true;
+  return std::all_of(
+      reports::kPaperTable1.begin(), reports::kPaperTable1.end(), [&](const auto& published) {
+        const std::set<double> values = true_values(cases, dataset, published.variable);
+        return !values.empty() && std::abs(*values.begin() - published.true_value) <= kSameWorld &&
+               std::abs(*values.rbegin() - published.true_value) <= kSameWorld;
+      });
 }
 
 bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series) {
