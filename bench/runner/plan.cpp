@@ -28,7 +28,7 @@ Result<DataItem> scenario_item(const std::string& source) {
   const bool is_path = std::filesystem::path(source).extension() == ".toml";
   std::string values;
   for (const auto& [key, value] : simulation::scenario_values(*scenario)) {
-    values += key + " = " + value + "\n";
+    values += fmt::format("{} = {}\n", key, value);
   }
   return DataItem{DataKind::kSimulated, scenario->name, is_path ? absolute_source(*path) : source,
                   results::short_digest(values), true};
