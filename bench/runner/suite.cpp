@@ -191,7 +191,8 @@ class Parser {
         const Result<ParamValues> values = info->resolve(choice.profile, params);
         if (!values) problem(node == nullptr ? table : *node, values.error().to_line());
       }
-      const auto is_run = [&](const SystemChoice& choice) { return choice.system == system; };
+      const std::string& name = system;  // clang 14 captures no structured binding
+      const auto is_run = [&name](const SystemChoice& choice) { return choice.system == name; };
       if (std::none_of(suite_.systems.begin(), suite_.systems.end(), is_run)) {
         problem(node == nullptr ? table : *node,
                 fmt::format("overrides.{}: the suite does not run this system", system));
