@@ -32,17 +32,17 @@ bool is_simulated(const Cases& cases) {
 
 // Rivals with the parameters their users get, and what was changed in others.
 void append_configuration(const Cases& cases, std::vector<std::string>& sentences) {
-  std::string shipped;
+  std::set<std::string> shipped;
   for (const Series& series : cases.series()) {
-    if (series.profile != "shipped") continue;
-    shipped += (shipped.empty() ? "" : ", ") + cases.label(series);
+    if (series.profile == "shipped") shipped.insert(series.system);
   }
   if (!shipped.empty()) {
-    sentences.push_back(
-        fmt::format("As shipped, with the parameters that users of the original programs get: {}. "
-                    "Anything else "
-                    "is named in the label. None of them was tuned for these data.",
-                    shipped));
+    sentences.push_back(fmt::format(
+        "Profile shipped is what users of the original programs get: {}. What else was "
+        "run is named in the label (a profile, or parameters where a system ran with "
+        "several sets); a parameter that a whole run set by hand shows only in the list "
+        "of parameters. No profile shipped was tuned for these data.",
+        fmt::join(shipped, ", ")));
   }
   if (has_system(cases, {"fusion"}) && is_simulated(cases)) {
     sentences.emplace_back(

@@ -44,10 +44,14 @@ bool is_paper_world(const reports::Cases& cases, const std::string& dataset) {
 }
 
 bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series) {
+  std::string first_profile;
+  std::set<std::string> hashes;
   for (const reports::Series& other : cases.series()) {
-    if (other.system == series.system) return other.profile == series.profile;
+    if (other.system != series.system) continue;
+    if (hashes.empty()) first_profile = other.profile;
+    if (other.profile == first_profile) hashes.insert(other.parameters_hash);
   }
-  return false;
+  return series.profile == first_profile && hashes.size() == 1;
 }
 
 }  // namespace corridor::tables

@@ -117,7 +117,7 @@ TEST(Caveats, ClaimShippedParametersOnlyOfThoseThatHaveThem) {
     if (result.system == "karto") result.profile = "shipped";
   }
   EXPECT_THAT(html::caveats(make_cases(results)),
-              Contains(AllOf(StartsWith("As shipped"), HasSubstr("get: karto."))));
+              Contains(AllOf(StartsWith("Profile shipped"), HasSubstr("get: karto."))));
 }
 
 TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
@@ -152,6 +152,14 @@ TEST(Reproduce, GivesOneRunPerRevisionWithItsSystemsAndSeeds) {
                     HasSubstr("corridor-bench run synthetic --jobs 1 --seed 1 --seeds 3 --out "
                               "synthetic \\\n    --system karto@default \\\n    --dataset "
                               "synthetic-corridor\n")));
+}
+
+TEST(Reproduce, NamesVariantsThatWereSetByHand) {
+  std::vector<RunResult> results = synthetic_results({{"karto", 0.06}}, 2);
+  results[1].parameters["num_particles"] = "99";
+  results[1].parameters_hash = "fedcba";
+  EXPECT_THAT(html::reproduce_commands(make_cases(results)),
+              HasSubstr("# karto (num_particles=99): a run of its own, with --set\n"));
 }
 
 TEST(Reproduce, NamesSeedsThatAreNotConsecutive) {
