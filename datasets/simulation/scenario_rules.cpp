@@ -119,7 +119,7 @@ std::vector<std::string> violations(const Scenario& scenario) {
   append("drive", scenario.drive, found);
   append("slip", scenario.slip, found);
   append("draw", scenario.draw, found);
-  if (scenario.name.empty()) found.push_back("name = \"\": expected a name");
+  if (scenario.name.empty()) found.emplace_back("name = \"\": expected a name");
   if (!found.empty()) return found;
 
   check_rate("lidar.rate_hz", scenario.lidar.rate_hz, scenario.imu.rate_hz, found);

@@ -30,6 +30,7 @@ std::vector<SlipInterval> draw_slips(const SlipParams& params, double drive_s, R
   const double free_s = drive_s - params.num_slips * params.duration_s;
   CORRIDOR_EXPECT(free_s >= 0);  // violations(scenario) says whether the drive is long enough
   std::vector<double> begins_s;
+  begins_s.reserve(static_cast<std::size_t>(params.num_slips));
   for (int i = 0; i < params.num_slips; ++i) begins_s.push_back(rng.uniform(0, free_s));
   std::sort(begins_s.begin(), begins_s.end());
   std::vector<SlipInterval> slips;
@@ -128,7 +129,7 @@ Simulated simulate(const Scenario& scenario, std::uint64_t seed) {
                               .format = "simulation",
                               .notes = {}};
   if (!drive.is_complete) {
-    simulated.log.provenance.notes.push_back("the drive ended before its last waypoint");
+    simulated.log.provenance.notes.emplace_back("the drive ended before its last waypoint");
   }
   record(scenario, drive, rng, simulated);
   return simulated;
