@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "slam/core/expect.hpp"
-#include "slam/motion/imu_preintegration.hpp"
+#include "slam/motion/imu_track.hpp"
 #include "slam/motion/wheel_track.hpp"
 
 namespace corridor::dead_reckoning {
@@ -13,7 +13,7 @@ namespace {
 class DeadReckoning final : public SlamSystem {
  public:
   DeadReckoning(const DeadReckoningParams& params, const RobotModel& robot)
-      : params_(params), gyro_(robot.imu, Eigen::Vector3d::Zero()) {}
+      : params_(params), gyro_(robot.imu) {}
 
   std::string_view name() const override {
     return params_.use_gyro ? "dead-reckoning-gyro" : "dead-reckoning";
@@ -30,7 +30,7 @@ class DeadReckoning final : public SlamSystem {
     } else if (const auto* imu = std::get_if<ImuSample>(&event)) {
       add(*imu);
     } else {
-      if (params_.use_gyro && !last_imu_) {
+      if (params_.use_gyro && !gyro_.has_reading()) {
         return fail(ErrorCode::kInvalid, "the log has no IMU reading before its first scan",
                     std::string(name()), "a log with a gyro");
       }
@@ -56,8 +56,7 @@ class DeadReckoning final : public SlamSystem {
       rate_sum_ += imu.gyro_z_radps;
       ++num_bias_samples_;
     }
-    last_imu_ = imu;
-    integrate_until(imu.stamp);
+    gyro_.add(imu);
   }
 
   bool has_moved() const {
@@ -77,24 +76,21 @@ class DeadReckoning final : public SlamSystem {
     // What was integrated so far was the bias of a robot at rest.
     turned_before_rad_ += rotated_rad - bias * gyro_.delta().duration_s;
     gyro_.reset({bias, 0, 0});
-  }
-
-  void integrate_until(Timestamp stamp) {
-    if (!last_imu_) return;
-    const double duration_s = integrated_until_ ? seconds_between(*integrated_until_, stamp) : 0;
-    if (duration_s > 0) gyro_.integrate(*last_imu_, duration_s);
-    if (!integrated_until_ || duration_s > 0) integrated_until_ = stamp;
+    scan_unmeasured_s_ = 0;
   }
 
   // The translation follows the wheels in the frame of the heading half way through the step.
   void move_to(Timestamp stamp) {
-    integrate_until(stamp);
+    gyro_.advance_to(stamp);
     const std::optional<Pose2> T_odom_base = track_.pose_at(stamp);
     const double turned_rad = turned_before_rad_ + gyro_.delta().theta_rad;
     const bool is_first = estimate_.trajectory.empty();
     if (T_odom_base && scan_T_odom_base_ && !is_first) {
       const Pose2 step = scan_T_odom_base_->between(*T_odom_base);
-      const double turn_rad = params_.use_gyro ? turned_rad - scan_turned_rad_ : step.theta_rad();
+      // Where readings were missing the wheels have the turn.
+      const bool is_gyro_whole = gyro_.delta().unmeasured_s == scan_unmeasured_s_;
+      const double turn_rad =
+          params_.use_gyro && is_gyro_whole ? turned_rad - scan_turned_rad_ : step.theta_rad();
       // Rotate the wheels' chord by half of what the gyro corrects.
       const Pose2 correction(0, 0, 0.5 * (turn_rad - step.theta_rad()));
       const Eigen::Vector2d chord = correction * step.translation_m();
@@ -103,14 +99,13 @@ class DeadReckoning final : public SlamSystem {
     if (T_odom_base) {
       scan_T_odom_base_ = T_odom_base;
       scan_turned_rad_ = turned_rad;
+      scan_unmeasured_s_ = gyro_.delta().unmeasured_s;
     }
   }
 
   const DeadReckoningParams params_;
   motion::WheelTrack track_;
-  motion::ImuPreintegrator gyro_;
-  std::optional<ImuSample> last_imu_;
-  std::optional<Timestamp> integrated_until_;
+  motion::ImuTrack gyro_;
   double turned_before_rad_ = 0;
   double rate_sum_ = 0;
   int num_bias_samples_ = 0;
@@ -119,7 +114,7 @@ class DeadReckoning final : public SlamSystem {
   std::optional<Pose2> first_T_odom_base_;
   Pose2 last_T_odom_base_;
   std::optional<Pose2> scan_T_odom_base_;  // at the last scan
-  double scan_turned_rad_ = 0;
+  double scan_turned_rad_ = 0, scan_unmeasured_s_ = 0;
   Pose2 T_map_base_;
   SlamEstimate estimate_;
 };

@@ -81,7 +81,7 @@ void add_imu_factors(const Interval& interval, const ImuModel& imu,
 
 SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotModel& robot,
                  const FusionParams& params) {
-  if (!interval.wheel_T_i_j || !interval.imu) return {};
+  if (!interval.wheel_T_i_j || !interval.imu || interval.imu->unmeasured_s > 0) return {};
   const Pose2& raw = *interval.wheel_T_i_j;
   const double scale = 1 + interval.wheel_scale;
   return test_slip(Pose2(scale * raw.x_m(), scale * raw.y_m(), raw.theta_rad()), noise,

@@ -8,8 +8,6 @@ namespace {
 // A motion between two scans that wheels and gyro did not measure may be off by this much.
 constexpr double kUnknownTranslation_m = 0.2;
 constexpr double kUnknownRotation_rad = 0.2;
-// A reading stands for no longer than this; beyond it the motion went unmeasured.
-constexpr double kMaxHold_s = 0.3;
 // Error of the gyro's rotation between two scans beside its noise: bias and scale.
 constexpr double kGyroFloor_rad = 5e-4;
 constexpr double kGyroScaleRatio = 0.01;
@@ -17,21 +15,7 @@ constexpr double kGyroScaleRatio = 0.01;
 }  // namespace
 
 MotionPredictor::MotionPredictor(const RobotModel& robot, const FusionParams& params)
-    : robot_(robot), params_(params), imu_(robot.imu, Eigen::Vector3d::Zero()) {}
-
-void MotionPredictor::integrate_until(Timestamp stamp) {
-  if (!last_imu_) return;
-  const double duration_s = integrated_until_ ? seconds_between(*integrated_until_, stamp) : 0;
-  if (duration_s > 0) imu_.integrate(*last_imu_, duration_s);
-  if (duration_s > kMaxHold_s) imu_.add_unmeasured_time(duration_s);
-  if (!integrated_until_ || duration_s > 0) integrated_until_ = stamp;
-}
-
-void MotionPredictor::add(const ImuSample& sample) {
-  // A reading stands for the time since the one before it.
-  last_imu_ = sample;
-  integrate_until(sample.stamp);
-}
+    : robot_(robot), params_(params), imu_(robot.imu) {}
 
 Pose2 MotionPredictor::imu_motion(const motion::ImuDelta& since_begin,
                                   const Eigen::Vector2d& velocity_mps) const {
@@ -48,7 +32,7 @@ Pose2 MotionPredictor::motion_without_wheels(Timestamp stamp, const MotionState&
 }
 
 Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
-  integrate_until(stamp);
+  imu_.advance_to(stamp);
   Prediction prediction;
   const std::optional<Pose2> wheel_pose = wheels_.pose_at(stamp);
   WheelNoise noise{kUnknownTranslation_m, kUnknownRotation_rad};
@@ -64,12 +48,10 @@ Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
   } else {
     motion = motion_without_wheels(stamp, state);
   }
-  const bool is_gyro_whole = imu_.delta().unmeasured_s == 0;
-  if (has_imu() && (is_gyro_whole || !prediction.has_wheels)) {
+  if (has_imu() && is_gyro_whole()) {
     prediction.is_turn_by_gyro = true;
     const double turn_rad = imu_.delta().theta_rad - last_imu_delta_.theta_rad;
-    noise.rotation_sigma_rad = kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad) +
-                               (is_gyro_whole ? 0 : kUnknownRotation_rad);
+    noise.rotation_sigma_rad = kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad);
     motion = {motion.x_m(), motion.y_m(), turn_rad};
   }
   last_imu_delta_ = imu_.delta();
@@ -81,8 +63,8 @@ Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
 }
 
 void MotionPredictor::reset_interval(Timestamp stamp, const Eigen::Vector3d& bias) {
-  is_imu_in_use_ = last_imu_.has_value();
-  integrate_until(stamp);
+  is_imu_in_use_ = imu_.has_reading();
+  imu_.advance_to(stamp);
   imu_.reset(bias);
   last_imu_delta_ = imu_.delta();
 }

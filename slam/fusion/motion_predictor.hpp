@@ -10,7 +10,7 @@
 #include "slam/core/robot_model.hpp"
 #include "slam/core/wheel.hpp"
 #include "slam/fusion/fusion_params.hpp"
-#include "slam/motion/imu_preintegration.hpp"
+#include "slam/motion/imu_track.hpp"
 #include "slam/motion/wheel_track.hpp"
 
 namespace corridor::fusion {
@@ -38,9 +38,9 @@ class MotionPredictor {
   MotionPredictor(const RobotModel& robot, const FusionParams& params);
 
   void add(const WheelSample& sample) { wheels_.add(sample); }
-  void add(const ImuSample& sample);
+  void add(const ImuSample& sample) { imu_.add(sample); }
 
-  [[nodiscard]] bool has_reading() const { return last_imu_.has_value(); }
+  [[nodiscard]] bool has_reading() const { return imu_.has_reading(); }
   // The IMU is used from the first key interval on that began with a reading.
   [[nodiscard]] bool has_imu() const { return is_imu_in_use_; }
   [[nodiscard]] std::optional<Pose2> wheel_pose_at(Timestamp stamp) const {
@@ -54,7 +54,10 @@ class MotionPredictor {
   [[nodiscard]] std::optional<motion::ImuDelta> imu_interval() const;
 
  private:
-  void integrate_until(Timestamp stamp);
+  // No part of the motion since the last call went by without a reading.
+  [[nodiscard]] bool is_gyro_whole() const {
+    return imu_.delta().unmeasured_s == last_imu_delta_.unmeasured_s;
+  }
   // By IMU and velocity or by the last twist, whichever there is.
   [[nodiscard]] Pose2 motion_without_wheels(Timestamp stamp, const MotionState& state) const;
   [[nodiscard]] Pose2 imu_motion(const motion::ImuDelta& since_begin,
@@ -63,9 +66,7 @@ class MotionPredictor {
   const RobotModel& robot_;
   const FusionParams& params_;
   motion::WheelTrack wheels_;
-  motion::ImuPreintegrator imu_;
-  std::optional<ImuSample> last_imu_;
-  std::optional<Timestamp> integrated_until_;
+  motion::ImuTrack imu_;
   std::optional<Pose2> last_wheel_T_odom_base_;
   std::optional<Timestamp> last_stamp_;
   motion::ImuDelta last_imu_delta_;  // of the running interval, at the last scan

@@ -39,15 +39,20 @@ void ImuPreintegrator::reset(const Eigen::Vector3d& bias) {
   delta_.bias = bias;
 }
 
-void ImuPreintegrator::add_unmeasured_time(double duration_s) {
-  const double rotation = kUnmeasuredRate_radps * duration_s;
-  const double velocity = kUnmeasuredAcceleration_mps2 * duration_s;
-  const double position = 0.5 * velocity * duration_s;
-  delta_.covariance.diagonal() +=
-      Eigen::Matrix<double, 5, 1>(
-          Eigen::Matrix<double, 5, 1>{rotation, velocity, velocity, position, position})
-          .cwiseAbs2();
+// What went unseen is one motion, however many pieces its time comes in: its standard deviations
+// grow with the time as a whole.
+void ImuPreintegrator::coast(double duration_s) {
+  integrate({Timestamp{}, delta_.bias(0), delta_.bias(1), delta_.bias(2)}, duration_s);
+  const auto variance_after = [](double time_s) {
+    const double rotation = kUnmeasuredRate_radps * time_s;
+    const double velocity = kUnmeasuredAcceleration_mps2 * time_s;
+    const double position = 0.5 * velocity * time_s;
+    return Eigen::Matrix<double, 5, 1>(
+        Eigen::Matrix<double, 5, 1>{rotation, velocity, velocity, position, position}.cwiseAbs2());
+  };
+  const double before_s = delta_.unmeasured_s;
   delta_.unmeasured_s += duration_s;
+  delta_.covariance.diagonal() += variance_after(delta_.unmeasured_s) - variance_after(before_s);
 }
 
 void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {

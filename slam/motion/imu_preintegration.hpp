@@ -37,9 +37,9 @@ class ImuPreintegrator {
   // Holds one reading for `duration_s` > 0. Rate and force turn into the base frame; the
   // centripetal part of the lever arm is taken out, its Euler part (angular acceleration) is not.
   void integrate(const ImuSample& sample, double duration_s);
-  // Tells that the last `duration_s` of what was integrated held no reading: widens the covariance
+  // Carries heading and velocity on through a time without readings, > 0, and widens the covariance
   // by the motion that may have gone unseen.
-  void add_unmeasured_time(double duration_s);
+  void coast(double duration_s);
   void reset(const Eigen::Vector3d& bias);
   [[nodiscard]] const ImuDelta& delta() const { return delta_; }
 

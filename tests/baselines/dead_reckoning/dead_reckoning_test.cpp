@@ -18,8 +18,10 @@ LaserScan scan_at(double stamp_s) {
 }
 
 // A circle of radius 1 m at 1 m/s from anywhere in the odometry's frame; the wheels see the turn
-// `wheel_turn_ratio` times too large, the gyro with a bias. It stands still for the first second.
-SlamEstimate drive_circle(const DeadReckoningParams& params, double wheel_turn_ratio, double bias) {
+// `wheel_turn_ratio` times too large, the gyro with a bias and only until gyro_end_s. It stands
+// still for the first second.
+SlamEstimate drive_circle(const DeadReckoningParams& params, double wheel_turn_ratio, double bias,
+                          double gyro_end_s = 100) {
   const auto system = make_dead_reckoning(params, RobotModel{});
   const Pose2 origin(7, -3, 2);
   Pose2 odometry = origin;
@@ -33,7 +35,10 @@ SlamEstimate drive_circle(const DeadReckoningParams& params, double wheel_turn_r
     }
     const Timestamp stamp = timestamp_from_seconds(t);
     EXPECT_TRUE(system->step(WheelSample{stamp, odometry, std::nullopt}).has_value());
-    EXPECT_TRUE(system->step(ImuSample{stamp, bias + (is_moving ? 1.0 : 0.0), 0, 0}).has_value());
+    if (t < gyro_end_s) {
+      const double rate_radps = bias + (is_moving ? 1.0 : 0.0);
+      EXPECT_TRUE(system->step(ImuSample{stamp, rate_radps, 0, 0}).has_value());
+    }
     if (i % 10 == 0) {
       EXPECT_TRUE(system->step(scan_at(t)).has_value());
     }
@@ -67,6 +72,15 @@ TEST(DeadReckoningGyro, TakesTheHeadingFromTheGyroAndItsBiasFromTheStandstill) {
   EXPECT_LT((last.translation_m() - reference.translation_m()).norm(), 2 * kArcTolerance_m);
   EXPECT_LT(std::abs(wrap_angle(last.theta_rad() - reference.theta_rad())), 0.02);
   EXPECT_GE(estimate.counters.at("gyro_bias_samples"), 100);
+}
+
+TEST(DeadReckoningGyro, LeavesTheTurnToTheWheelsWhereTheGyroIsSilent) {
+  const SlamEstimate estimate = drive_circle({.use_gyro = true}, 1, 0, 3);
+  const Pose2 truth = Pose2::exp({6.2, 0, 6.2});
+  const Pose2 error = estimate.trajectory.back().T_map_base.between(truth);
+  // The last reading stands for three intervals of 10 ms more, of a step that is the wheels' then.
+  EXPECT_LT(error.translation_m().norm(), kArcTolerance_m);
+  EXPECT_NEAR(error.theta_rad(), 0, 1e-6);
 }
 
 TEST(DeadReckoningGyro, SaysThatALogHasNoGyro) {
