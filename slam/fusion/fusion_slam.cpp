@@ -161,9 +161,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     const auto stage = stage_clock().enter(Stage::kMatch);
     Submap& submap = local_map_.active();
     const Pose2& T_map_submap = estimate().pose(submap.origin_key());
-    TrackedScan tracked =
-        track_scan(submap, points, T_map_submap.between(T_map_base_), prediction, robot_, params_,
-                   num_refused_in_a_row_ < kMaxRefusedInARow);
+    TrackedScan tracked = track_scan(submap, points, T_map_submap.between(T_map_base_), prediction,
+                                     robot_, params_, num_refused_in_a_row_ < kMaxRefusedInARow);
     num_refused_in_a_row_ = tracked.is_refused ? num_refused_in_a_row_ + 1 : 0;
     const Pose2 T_last_now = T_map_base_.between(T_map_submap * tracked.T_submap_base);
     T_map_base_ = T_map_submap * tracked.T_submap_base;
@@ -272,9 +271,10 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
         loop_closer_.search(key_scans_, local_map_, estimate(), robot_.lidar.range_sigma_m);
     if (closures.empty()) return;
     const auto optimise = stage_clock().enter(Stage::kOptimise);
-    LoopEdges::Outcome outcome = loop_edges_.add(closures, *back_end_);
-    for (backend::BackEndReport& report : outcome.solves) keep(std::move(report));
-    if (outcome.is_any_kept) loop_closer_.on_accepted(path_m_);
+    for (backend::BackEndReport& report : loop_edges_.add(closures, path_m_, *back_end_)) {
+      keep(std::move(report));
+    }
+    loop_closer_.set_last_closure(loop_edges_.last_path_m());
     T_map_base_ = estimate().pose(last_key());
   }
 
@@ -290,7 +290,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     counters["key_scans"] = static_cast<double>(key_scans_.size());
     counters["submaps"] = static_cast<double>(local_map_.num_submaps());
     counters["loop_candidates"] = loop_closer_.num_candidates();
-    counters["loop_closures"] = loop_edges_.num_added();
+    counters["loop_closures"] = static_cast<double>(loop_edges_.num_in_graph());
     counters["loop_closures_removed"] = loop_edges_.num_removed();
     counters["slip_intervals"] = num_slips_;
     counters["degenerate_intervals"] = num_degenerate_;

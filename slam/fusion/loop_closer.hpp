@@ -28,8 +28,8 @@ class LoopCloser {
   // Closures to add now: none, or the two that agreed.
   std::vector<LoopClosure> search(std::span<const KeyScan> key_scans, LocalMap& local_map,
                                   const graph::Values& estimate, double range_sigma_m);
-  // Tells that closures were accepted: the window shrinks.
-  void on_accepted(double path_m) { last_closure_path_m_ = path_m; }
+  // Path at which the newest closure in the graph was found: the window grows from there.
+  void set_last_closure(double path_m) { last_closure_path_m_ = path_m; }
   [[nodiscard]] int num_candidates() const { return num_candidates_; }
 
  private:

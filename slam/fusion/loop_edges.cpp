@@ -7,41 +7,43 @@
 
 namespace corridor::fusion {
 
-LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures,
+LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double path_m,
                                   backend::BackEnd& back_end) {
   std::vector<graph::FactorPtr> factors;
+  std::vector<std::uint32_t> scan_keys;
   for (const LoopClosure& closure : closures) {
-    if (!closed_keys_.insert(closure.scan_key).second) continue;
+    const bool is_closed = std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
+      return edge.scan_key == closure.scan_key;
+    });
+    if (is_closed) continue;
     factors.push_back(std::make_unique<graph::RelativePose>(
         graph::pose_key(closure.submap_key), graph::pose_key(closure.scan_key),
         closure.match.T_map_base, graph::square_root_information(closure.match.information)));
+    scan_keys.push_back(closure.scan_key);
   }
-  Outcome outcome;
-  if (factors.empty()) return outcome;
-  outcome.solves.push_back(back_end.update(std::move(factors), {}, {}));
-  const std::vector<graph::FactorId> added = outcome.solves.front().new_factor_ids;
-  outcome.solves.push_back(back_end.solve());
-  ids_.insert(ids_.end(), added.begin(), added.end());
-  num_added_ += static_cast<int>(added.size());
-  remove_false_ones(back_end, outcome);
-  outcome.is_any_kept = std::any_of(added.begin(), added.end(), [&](graph::FactorId id) {
-    return back_end.graph().contains(id);
-  });
-  return outcome;
+  Outcome solves;
+  if (factors.empty()) return solves;
+  solves.push_back(back_end.update(std::move(factors), {}, {}));
+  for (std::size_t i = 0; i < scan_keys.size(); ++i) {
+    edges_.push_back({solves.front().new_factor_ids[i], scan_keys[i], path_m});
+  }
+  solves.push_back(back_end.solve());
+  remove_false_ones(back_end, solves);
+  return solves;
 }
 
-void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& outcome) {
-  const auto chi2 = [&](graph::FactorId id) {
-    return back_end.graph().factor(id).chi2(back_end.estimate());
+void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& solves) {
+  const auto chi2 = [&](const Edge& edge) {
+    return back_end.graph().factor(edge.id).chi2(back_end.estimate());
   };
-  while (!ids_.empty()) {
+  while (!edges_.empty()) {
     const auto worst =
-        std::max_element(ids_.begin(), ids_.end(),
-                         [&](graph::FactorId a, graph::FactorId b) { return chi2(a) < chi2(b); });
+        std::max_element(edges_.begin(), edges_.end(),
+                         [&](const Edge& a, const Edge& b) { return chi2(a) < chi2(b); });
     if (!(chi2(*worst) > gate_)) return;
-    outcome.solves.push_back(back_end.update({}, {}, {&*worst, 1}));
-    outcome.solves.push_back(back_end.solve());
-    ids_.erase(worst);
+    solves.push_back(back_end.update({}, {}, {&worst->id, 1}));
+    solves.push_back(back_end.solve());
+    edges_.erase(worst);
     ++num_removed_;
   }
 }

@@ -2,8 +2,8 @@
 // contradicts once everything is solved.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -17,26 +17,31 @@ class LoopEdges {
   // gate: chi-square of one closure after solving beyond which it counts as false.
   explicit LoopEdges(double gate) : gate_(gate) {}
 
-  struct Outcome {
-    bool is_any_kept = false;                    // of the closures given
-    std::vector<backend::BackEndReport> solves;  // in order; empty: nothing was added
-  };
+  using Outcome =
+      std::vector<backend::BackEndReport>;  // of the solves, in order; empty: none added
 
-  // Adds the closures of key scans that have none yet and solves. Then, while one of all closures
-  // is beyond the gate, takes out the worst and solves again: a false closure bends the graph and
-  // puts true ones beyond the gate too, which come back when it is gone.
-  Outcome add(std::span<const LoopClosure> closures, backend::BackEnd& back_end);
+  // Adds the closures of key scans that have none and solves. path_m: travelled up to now. Then,
+  // while one of all closures is beyond the gate, takes out the worst and solves again: a false
+  // closure bends the graph and puts true ones beyond the gate too, which come back when it is
+  // gone.
+  Outcome add(std::span<const LoopClosure> closures, double path_m, backend::BackEnd& back_end);
 
-  [[nodiscard]] int num_added() const { return num_added_; }
+  [[nodiscard]] std::size_t num_in_graph() const { return edges_.size(); }
   [[nodiscard]] int num_removed() const { return num_removed_; }
+  // Path at which the newest closure in the graph was found; 0 without one.
+  [[nodiscard]] double last_path_m() const { return edges_.empty() ? 0 : edges_.back().path_m; }
 
  private:
-  void remove_false_ones(backend::BackEnd& back_end, Outcome& outcome);
+  struct Edge {
+    graph::FactorId id;
+    std::uint32_t scan_key;
+    double path_m;
+  };
+  void remove_false_ones(backend::BackEnd& back_end, Outcome& solves);
 
   double gate_;
-  std::set<std::uint32_t> closed_keys_;
-  std::vector<graph::FactorId> ids_;  // of those in the graph
-  int num_added_ = 0, num_removed_ = 0;
+  std::vector<Edge> edges_;  // those in the graph, in order of time
+  int num_removed_ = 0;
 };
 
 }  // namespace corridor::fusion

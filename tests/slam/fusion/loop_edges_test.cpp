@@ -45,19 +45,18 @@ class LoopEdgesTest : public ::testing::Test {
 
 TEST_F(LoopEdgesTest, AClosureThatAgreesStays) {
   const std::vector<LoopClosure> closures = {closure(10, 10.05)};
-  const LoopEdges::Outcome outcome = edges_.add(closures, *back_end_);
-  EXPECT_TRUE(outcome.is_any_kept);
-  EXPECT_EQ(edges_.num_added(), 1);
+  EXPECT_FALSE(edges_.add(closures, 10, *back_end_).empty());
+  EXPECT_EQ(edges_.num_in_graph(), 1u);
   EXPECT_EQ(edges_.num_removed(), 0);
+  EXPECT_EQ(edges_.last_path_m(), 10);
   EXPECT_NEAR(back_end_->estimate().pose(10).x_m(), 10.05, 0.005);
 }
 
 TEST_F(LoopEdgesTest, AFalseClosureIsTakenOutAndTheTrueOneThatItBentStays) {
   // Together, both are far beyond the gate; alone, the true one fits.
   const std::vector<LoopClosure> closures = {closure(9, 5), closure(10, 10)};
-  const LoopEdges::Outcome outcome = edges_.add(closures, *back_end_);
-  EXPECT_TRUE(outcome.is_any_kept);
-  EXPECT_EQ(edges_.num_added(), 2);
+  (void)edges_.add(closures, 10, *back_end_);
+  EXPECT_EQ(edges_.num_in_graph(), 1u);
   EXPECT_EQ(edges_.num_removed(), 1);
   EXPECT_NEAR(back_end_->estimate().pose(9).x_m(), 9, 1e-3);
   EXPECT_NEAR(back_end_->estimate().pose(10).x_m(), 10, 1e-3);
@@ -66,20 +65,33 @@ TEST_F(LoopEdgesTest, AFalseClosureIsTakenOutAndTheTrueOneThatItBentStays) {
 TEST_F(LoopEdgesTest, ALaterClosureCanProveAnEarlierOneFalse) {
   // A metre off: the chain before it gives way, until both neighbours say otherwise.
   const std::vector<LoopClosure> wrong = {closure(9, 10)};
-  EXPECT_TRUE(edges_.add(wrong, *back_end_).is_any_kept);
+  (void)edges_.add(wrong, 9, *back_end_);
+  EXPECT_EQ(edges_.num_in_graph(), 1u);
   const std::vector<LoopClosure> right = {closure(8, 8), closure(10, 10)};
-  EXPECT_TRUE(edges_.add(right, *back_end_).is_any_kept);
+  (void)edges_.add(right, 10, *back_end_);
+  EXPECT_EQ(edges_.num_in_graph(), 2u);
   EXPECT_EQ(edges_.num_removed(), 1);
   EXPECT_NEAR(back_end_->estimate().pose(9).x_m(), 9, 1e-3);
 }
 
 TEST_F(LoopEdgesTest, AKeyScanIsClosedOnce) {
   const std::vector<LoopClosure> closures = {closure(10, 10)};
-  (void)edges_.add(closures, *back_end_);
-  const LoopEdges::Outcome again = edges_.add(closures, *back_end_);
-  EXPECT_FALSE(again.is_any_kept);
-  EXPECT_TRUE(again.solves.empty());
-  EXPECT_EQ(edges_.num_added(), 1);
+  (void)edges_.add(closures, 10, *back_end_);
+  EXPECT_TRUE(edges_.add(closures, 10, *back_end_).empty());
+  EXPECT_EQ(edges_.num_in_graph(), 1u);
+}
+
+TEST_F(LoopEdgesTest, AKeyScanWhoseFalseClosureIsGoneCanBeClosedAgainAndNothingElseStays) {
+  const std::vector<LoopClosure> wrong = {closure(10, 0)};
+  (void)edges_.add(wrong, 10, *back_end_);
+  // Alone against the chain it bends everything; the next one proves it false.
+  const std::vector<LoopClosure> right = {closure(9, 9)};
+  (void)edges_.add(right, 10.5, *back_end_);
+  ASSERT_EQ(edges_.num_removed(), 1);
+  EXPECT_EQ(edges_.last_path_m(), 10.5);
+  const std::vector<LoopClosure> again = {closure(10, 10)};
+  EXPECT_FALSE(edges_.add(again, 11, *back_end_).empty());
+  EXPECT_EQ(edges_.num_in_graph(), 2u);
 }
 
 }  // namespace
