@@ -74,6 +74,8 @@ void visit_what(auto& r, auto&& v) {
   v(ResultKey{"profile", "", "named parameter set of the system", false}, r.profile);
   v(ResultKey{"backend", "", "graph back-end, null for systems without one", false}, r.backend);
   v(ResultKey{"dataset", "", "data set, scenario or log file", false}, r.dataset);
+  v(ResultKey{"data_source", "", "what was loaded: name, or absolute path of a file", false},
+    r.data_source);
   v(ResultKey{"data_digest", "", "hash of the log, or of the scenario's values", false},
     r.data_digest);
   v(ResultKey{"data_seed", "", "seed of the simulated log, null for recorded data", false},
@@ -83,6 +85,8 @@ void visit_what(auto& r, auto&& v) {
   v(ResultKey{"jobs", "1", "cases that ran at a time, null if not known", false}, r.jobs);
   v(ResultKey{"parameters_hash", "", "hash of all parameter values", false}, r.parameters_hash);
   v(ResultKey{"parameters", "", "every parameter's value", false}, r.parameters);
+  v(ResultKey{"overrides", "", "parameters set by hand, {} for none, null if not known", false},
+    r.overrides);
   v(ResultKey{"git_revision", "", "revision of the program, +dirty with local changes", false},
     r.git_revision);
   v(ResultKey{"machine_id", "", "hash of the machine's fingerprint", false}, r.machine_id);

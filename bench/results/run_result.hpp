@@ -76,6 +76,7 @@ struct RunResult {
   std::string system, profile;
   std::optional<std::string> backend;
   std::string dataset;                     // catalogue name, scenario name or file
+  std::optional<std::string> data_source;  // what was loaded: name, or absolute path of the file
   std::optional<std::string> data_digest;  // of the log's bytes or the scenario's values
   std::optional<std::uint64_t> data_seed;  // null for recorded data
   std::uint64_t system_seed = 0;
@@ -83,6 +84,8 @@ struct RunResult {
   std::optional<int> jobs;  // cases that ran at a time; null if nobody said
   std::string parameters_hash;
   std::map<std::string, std::string> parameters;
+  // What was set by hand on top of the profile; null: an older revision, which did not say.
+  std::optional<std::map<std::string, std::string>> overrides;
   std::string git_revision, machine_id;
 
   // outcome

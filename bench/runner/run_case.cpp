@@ -166,11 +166,13 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
   result.profile = spec.profile;
   result.backend = spec.backend;
   result.dataset = spec.dataset;
+  result.data_source = spec.data_source;
   if (!spec.data_digest.empty()) result.data_digest = spec.data_digest;
   result.data_seed = spec.data_seed;
   result.system_seed = spec.system_seed;
   result.threads = spec.threads;
   result.jobs = jobs;
+  result.overrides = spec.overrides;
   result.git_revision = git_revision();
   result.machine_id = results::this_machine().machine_id;
   if (const Result<SystemInfo> info = find_system(spec.system)) {

@@ -29,6 +29,9 @@ inline void draw(double& value) {
 }
 
 template <class T>
+void draw(std::map<std::string, T>& values);
+
+template <class T>
 void draw(std::optional<T>& value) {
   value.reset();
   if (*rc::gen::arbitrary<bool>()) draw(value.emplace());

@@ -38,7 +38,8 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "slip_latency_s degeneracy_precision degeneracy_recall stages step_p50_us step_p95_us "
       "step_p99_us step_max_us wall_s cpu_s peak_rss_mib realtime_factor "
       // beyond the contract's table
-      "case_id suite data_digest jobs notes parameters counters online_relations_used "
+      "case_id suite data_source data_digest jobs notes parameters overrides counters "
+      "online_relations_used "
       "online_relations_skipped "
       "online_relations_translation_mean_m online_relations_translation_std_m "
       "online_relations_rotation_mean_deg online_relations_rotation_std_deg");
@@ -79,6 +80,18 @@ TEST(ResultJson, MissingKeysKeepTheirDefaultAndUnknownOnesAreSkipped) {
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(result->case_id, "c");
   EXPECT_FALSE(result->final_scores.position_rmse_m.has_value());
+}
+
+TEST(ResultJson, TellsNothingSetByHandFromARecordThatDoesNotSay) {
+  const auto overrides = [](const char* text) { return result_from_json(text, "t")->overrides; };
+  EXPECT_FALSE(overrides(R"({"case_id": "c", "status": "ok"})").has_value());
+  EXPECT_FALSE(overrides(R"({"case_id": "c", "status": "ok", "overrides": null})").has_value());
+  const auto none = overrides(R"({"case_id": "c", "status": "ok", "overrides": {}})");
+  ASSERT_TRUE(none.has_value());
+  EXPECT_TRUE(none->empty());
+  const auto one = overrides(R"({"case_id": "c", "status": "ok", "overrides": {"a_m": "2"}})");
+  ASSERT_TRUE(one.has_value());
+  EXPECT_EQ(one->at("a_m"), "2");
 }
 
 TEST(ResultJson, RefusesWrongTypesUnknownStatusesAndBrokenSyntaxByName) {

@@ -160,6 +160,19 @@ TEST_F(RunPlanTest, RecordsHowManyCasesRanAtATime) {
   EXPECT_EQ(text_in("calls"), "--jobs 1\n--jobs 2\n--jobs 2\n");
 }
 
+TEST_F(RunPlanTest, RecordsWhatWasSetByHandAndWhereTheDataCameFrom) {
+  CaseSpec spec = spec_of(1);
+  ASSERT_TRUE(run({spec}, "exit 2").has_value());
+  ASSERT_TRUE(only_record().overrides.has_value());
+  EXPECT_TRUE(only_record().overrides->empty());
+  EXPECT_EQ(only_record().data_source, "paper-corridor");
+  spec.overrides = {{"buffer_size_scans", "50"}};
+  ASSERT_TRUE(run({spec}, "exit 2").has_value());
+  const auto records = stored();
+  EXPECT_TRUE(std::any_of(records.begin(), records.end(),
+                          [&](const auto& record) { return record.overrides == spec.overrides; }));
+}
+
 TEST_F(RunPlanTest, DoesNotTakeTheRecordOfAnEarlierRunForThatOfACrash) {
   ASSERT_TRUE(run({spec_of(1)}, "exit 2").has_value());
   ASSERT_TRUE(run({spec_of(1)}, "kill -ABRT $$").has_value());
