@@ -27,14 +27,6 @@ bool contains_word(std::string_view line, std::string_view word) {
   return false;
 }
 
-// "room/part" or "room": the folder whose README describes the file.
-std::string described_folder(const SourceFile& file) {
-  const std::string folder = file.folder();
-  const std::size_t first = folder.find('/');
-  if (first == std::string::npos) return folder;
-  return folder.substr(0, folder.find('/', first + 1));
-}
-
 // True if the CMakeLists.txt of the folder, or of a folder above, names the file relative to
 // itself.
 bool is_in_build(const SourceTree& tree, const SourceFile& file) {
@@ -90,10 +82,8 @@ std::vector<std::string> folders_without_readme(const SourceTree& tree) {
   std::set<std::string> folders;
   for (const SourceFile& file : tree.files) {
     if (!file.is_cpp()) continue;
-    const std::string folder = described_folder(file);
-    // These two rooms are one subject each, described by one page.
-    const bool is_one_page = starts_with_any(folder, {"tests", "reports"});
-    folders.insert(is_one_page ? folder.substr(0, folder.find('/')) : folder);
+    // The tests mirror the tree: one page describes them all.
+    folders.insert(file.path.starts_with("tests/") ? "tests" : file.folder());
   }
   std::vector<std::string> found;
   for (const std::string& folder : folders) {

@@ -70,15 +70,16 @@ TEST(TreeRules, FindsAFileOfOneLineTooMany) {
               ElementsAre(HasSubstr("slam/core/too_long.cpp: 401 lines")));
 }
 
-TEST(TreeRules, FindsAFolderWithoutReadmeAndCountsDeeperFoldersToTheirPart) {
+TEST(TreeRules, FindsAFolderWithoutReadmeHoweverDeepAndTakesTheTestsAsOne) {
   const ScratchFolder folder;
+  folder.write("slam/graph/README.md", "");
   folder.write("slam/graph/factors/a.cpp", "");
   folder.write("slam/core/a.cpp", "");
   folder.write("slam/core/README.md", "");
   folder.write("tests/slam/core/a_test.cpp", "");
   folder.write("tests/README.md", "");
   EXPECT_THAT(folders_without_readme(read_source_tree(folder.path())),
-              ElementsAre(HasSubstr("slam/graph: ")));
+              ElementsAre(HasSubstr("slam/graph/factors: ")));
 }
 
 TEST(TreeRules, FindsAHeaderWithoutGuard) {
