@@ -19,6 +19,12 @@ constexpr double kGaugeSigma = 1e-4;
 // Where neither wheels nor IMU nor the whole LiDAR measured an interval.
 constexpr double kTrackedSigma_m = 0.2;
 constexpr double kTrackedSigma_rad = 0.2;
+// The paper's test compares scans about a travel apart; a key scan comes a little before it.
+constexpr double kNearlyThere = 0.9;
+// A view that does not change at all is this bad at most.
+constexpr double kLeastDifference_m = 1e-6;
+// Of a wheel scale that is not estimated.
+constexpr double kFixedScaleSigma = 1e-6;
 // A bias always walks a little, so that the factor stays defined for ideal sensors.
 constexpr double kMinBiasWalk = 1e-7;
 
@@ -32,11 +38,11 @@ LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
                               const FusionParams& params) {
   LidarChoice choice;
   const bool has_moved = interval.wheel_T_i_j && interval.wheel_T_i_j->translation_m().norm() >=
-                                                     0.9 * params.degeneracy_travel_m;
+                                                     kNearlyThere * params.degeneracy_travel_m;
   if (!interval.range_difference_m || !has_moved) return choice;
   const double threshold_m =
       params.degeneracy_floor_factor * range_difference_floor_m(robot.lidar.range_sigma_m);
-  choice.badness = threshold_m / std::max(*interval.range_difference_m, 1e-6);
+  choice.badness = threshold_m / std::max(*interval.range_difference_m, kLeastDifference_m);
   choice.sigma_factor = adaptive_factor(choice.badness);
   return choice;
 }
@@ -175,7 +181,7 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
 void add_first_factors(const FusionParams& params, std::vector<FactorPtr>& factors) {
   factors.push_back(std::make_unique<graph::PosePrior>(graph::pose_key(0), Pose2(),
                                                        Eigen::Matrix3d::Identity() / kGaugeSigma));
-  const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : 1e-6;
+  const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : kFixedScaleSigma;
   factors.push_back(
       std::make_unique<graph::VectorPrior>(graph::wheel_scale_key(0), Eigen::VectorXd::Zero(1),
                                            Eigen::VectorXd::Constant(1, scale_sigma)));

@@ -9,6 +9,8 @@ namespace {
 // The window never gets smaller than what a few metres of drift need.
 constexpr double kMinWindow_m = 0.3;
 constexpr double kMinWindow_rad = 0.1;
+// The refinement may leave the search window by a part of it.
+constexpr double kRefinedWindow = 1.5;
 // Heading drift per path that widens the angular window.
 constexpr double kHeadingDrift_radpm = 0.01;
 
@@ -61,8 +63,8 @@ std::optional<LoopClosure> LoopCloser::match(const KeyScan& key_scan, std::uint3
   LoopClosure closure{submap.origin_key(), key,
                       matching::observable_part(result, params_.observability)};
   const Pose2 shift = T_submap_base.between(closure.match.T_map_base);
-  const bool is_inside = shift.translation_m().norm() <= 1.5 * window_m &&
-                         std::abs(shift.theta_rad()) <= 1.5 * window_rad;
+  const bool is_inside = shift.translation_m().norm() <= kRefinedWindow * window_m &&
+                         std::abs(shift.theta_rad()) <= kRefinedWindow * window_rad;
   if (!is_inside || closure.match.num_observable < 2) return std::nullopt;
   return closure;
 }
