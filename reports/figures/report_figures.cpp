@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "bench/statistics/quantiles.hpp"
 #include "reports/metrics.hpp"
@@ -33,6 +34,14 @@ std::optional<Series> reference_series(const Cases& cases, const std::string& da
   return chosen;
 }
 
+// What the error of the chosen world is among all: `thing` is a world, or a run on a recorded log.
+std::string why_chosen(double chosen_m, const std::vector<double>& all_m, std::string_view thing) {
+  if (all_m.size() == 1) return "the only one measured";
+  const double median_m = *statistics::median(all_m);
+  if (chosen_m == median_m) return fmt::format("the median of its {} {}s", all_m.size(), thing);
+  return fmt::format("closest to its median over {} {}s, {:.3f} m", all_m.size(), thing, median_m);
+}
+
 }  // namespace
 
 std::optional<Representative> representative_world(const Cases& cases, const std::string& dataset) {
@@ -41,6 +50,7 @@ std::optional<Representative> representative_world(const Cases& cases, const std
   const auto values = tables::world_values(cases, dataset, *series, reports::position_error());
   std::vector<double> sorted;
   for (const auto& [world, value] : values) sorted.push_back(value);
+  // Of an even number no world has the median: the lower of the two beside it stands in.
   const double middle = *statistics::percentile(sorted, 50);
   const auto found = std::find_if(values.begin(), values.end(),
                                   [&](const auto& item) { return item.second == middle; });
@@ -49,10 +59,9 @@ std::optional<Representative> representative_world(const Cases& cases, const std
                                ? fmt::format("World {} of {}", *world.data_seed, dataset)
                                : fmt::format("{}, system seed {}", dataset, world.system_seed);
   return Representative{
-      world, fmt::format("{}, chosen because {}'s position error there, {:.3f} m, is the median of "
-                         "its {} {}.",
-                         name, cases.label(*series), middle, values.size(),
-                         values.size() == 1 ? "world" : "worlds")};
+      world, fmt::format("{}, chosen because {}'s position error there, {:.3f} m, is {}.", name,
+                         cases.label(*series), middle,
+                         why_chosen(middle, sorted, world.data_seed ? "world" : "run"))};
 }
 
 const Case* case_in_world(const Cases& cases, const World& world, const Series& series) {

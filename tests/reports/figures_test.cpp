@@ -199,6 +199,22 @@ TEST(RepresentativeWorld, IsTheOneOfKartosMedianError) {
   std::sort(errors_m.begin(), errors_m.end());
   EXPECT_EQ(error_m, errors_m[3]);
   EXPECT_THAT(chosen->reason, HasSubstr("karto"));
+  EXPECT_THAT(chosen->reason, HasSubstr("m, is the median of its 7 worlds."));
+}
+
+TEST(RepresentativeWorld, OfAnEvenNumberIsTheOneClosestToTheMedianAndNoneIsTheMedian) {
+  const auto run = reports::testing::paper_like_run();
+  std::vector<reports::Case> all;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    all.push_back({reports::testing::synthetic_result(run, {"karto", 0.1}, seed), {}});
+    all.back().result.final_scores.position_rmse_m = seed == 1 ? 0.620 : 0.202;
+  }
+  const auto chosen = representative_world(reports::Cases(all, {}, {}), run.dataset);
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->world.data_seed, 2U);
+  EXPECT_EQ(chosen->reason,
+            "World 2 of synthetic-corridor, chosen because karto's position error there, 0.202 m, "
+            "is closest to its median over 2 worlds, 0.411 m.");
 }
 
 }  // namespace
