@@ -76,7 +76,8 @@ void visit_what(auto& r, auto&& v) {
   v(ResultKey{"dataset", "", "data set, scenario or log file", false}, r.dataset);
   v(ResultKey{"data_source", "", "what was loaded: name, or absolute path of a file", false},
     r.data_source);
-  v(ResultKey{"data_digest", "", "hash of the log, or of the scenario's values", false},
+  v(ResultKey{"data_digest", "", "hash of the log, its truth and calibration, or of the scenario",
+              false},
     r.data_digest);
   v(ResultKey{"data_seed", "", "seed of the simulated log, null for recorded data", false},
     r.data_seed);

@@ -77,7 +77,7 @@ struct RunResult {
   std::optional<std::string> backend;
   std::string dataset;                     // catalogue name, scenario name or file
   std::optional<std::string> data_source;  // what was loaded: name, or absolute path of the file
-  std::optional<std::string> data_digest;  // of the log's bytes or the scenario's values
+  std::optional<std::string> data_digest;  // of the log and its truth, or the scenario's values
   std::optional<std::uint64_t> data_seed;  // null for recorded data
   std::uint64_t system_seed = 0;
   int threads = 1;

@@ -38,7 +38,7 @@ struct CaseSpec {
   std::uint64_t system_seed = 1;
   int threads = 1;
   CaseLimits limits;
-  std::string data_digest;  // of the scenario file or log when the case was planned
+  std::string data_digest;  // of the scenario, or the log and its truth, when planned
 
   bool operator==(const CaseSpec&) const = default;
 };

@@ -39,7 +39,7 @@ Result<DataItem> dataset_item(const std::string& source, const catalog::DataDirs
   if (!loaded) return tl::make_unexpected(loaded.error());
   const bool is_name = loaded->name == source;
   return DataItem{DataKind::kRecorded, loaded->name, is_name ? source : absolute_source(source),
-                  loaded->sha256, loaded->log.num_imu_samples() > 0};
+                  loaded->digest, loaded->log.num_imu_samples() > 0};
 }
 
 class Planner {

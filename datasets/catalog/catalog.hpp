@@ -71,6 +71,9 @@ struct LoadedDataset {
   std::optional<std::filesystem::path> world_file;  // LOG.truth.toml of a simulated log
   std::string name;    // the catalogue's, or the log's file name without its log suffix
   std::string sha256;  // of the log file
+  // Of all that decides what is run and scored: the log, what lies beside it (.robot.toml .tum
+  // .relations .truth.toml), the order and the catalogue's calibration. `sha256` for a log alone.
+  std::string digest;
 };
 
 // `name_or_path` is a catalogued name or the path of a log file; truth is LOG.tum or LOG.relations

@@ -1,9 +1,14 @@
 // A data set by name or by file, with its truth: what every command that takes one goes through.
 #include <fmt/format.h>
 
+#include <array>
+#include <string>
+#include <string_view>
+
 #include "datasets/catalog/catalog.hpp"
 #include "datasets/catalog/find_folder.hpp"
 #include "datasets/catalog/sha256.hpp"
+#include "datasets/formats/robot_toml.hpp"
 
 namespace corridor::catalog {
 namespace {
@@ -20,12 +25,43 @@ std::string names_text(const Catalog& catalog) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
+// What may lie beside a log and is read with it.
+constexpr std::array<std::string_view, 4> kSidecars = {".robot.toml", ".tum", ".relations",
+                                                       ".truth.toml"};
+
+// "" for the defaults of a log that is read by its path.
+std::string options_text(const formats::ReadLogOptions& options) {
+  std::string text;
+  if (options.order != formats::StampOrder::kStamp) text += "order file\n";
+  if (options.no_return_range_m)
+    text += fmt::format("no return {} m\n", *options.no_return_range_m);
+  if (options.robot) text += formats::robot_to_toml(*options.robot);
+  return text;
+}
+
+Result<std::string> digest_of(const std::filesystem::path& log, const std::string& log_sha256,
+                              const formats::ReadLogOptions& options) {
+  std::string text = options_text(options);
+  for (const std::string_view suffix : kSidecars) {
+    const std::filesystem::path path = formats::sidecar_of(log, suffix);
+    if (!is_file(path)) continue;
+    const auto sha256 = sha256_of_file(path);
+    if (!sha256) return sha256;
+    text += fmt::format("{} {}\n", suffix, *sha256);
+  }
+  if (text.empty()) return log_sha256;
+  return to_hex(sha256_of(fmt::format("log {}\n{}", log_sha256, text)));
+}
+
 Result<LoadedDataset> load_file(const std::filesystem::path& log,
                                 const formats::ReadLogOptions& options) {
   LoadedDataset loaded;
   auto sha256 = sha256_of_file(log);
   if (!sha256) return tl::make_unexpected(sha256.error());
   loaded.sha256 = std::move(*sha256);
+  auto digest = digest_of(log, loaded.sha256, options);
+  if (!digest) return tl::make_unexpected(digest.error());
+  loaded.digest = std::move(*digest);
   auto read = formats::read_log(log, options);
   if (!read) return tl::make_unexpected(read.error());
   loaded.log = std::move(*read);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "datasets/catalog/sha256.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -134,6 +135,41 @@ TEST(LoadDataset, ByPathTakesTruthFromBesideTheFile) {
   EXPECT_TRUE(loaded->relations.has_value());
   EXPECT_EQ(loaded->log.truth->size(), 1U);
   EXPECT_EQ(loaded->world_file, data.folder / "data/sub/tiny.truth.toml");
+}
+
+TEST(LoadDataset, TheDigestCoversTheLogWhatLiesBesideItAndTheCalibration) {
+  const TinyData data;
+  const auto digest = [&](const Catalog& catalog, const std::string& name) {
+    const auto loaded = load_dataset(name, data.dirs, catalog);
+    EXPECT_TRUE(loaded.has_value()) << loaded.error().to_line();
+    return loaded ? loaded->digest : "";
+  };
+  const auto by_path = [&] {
+    return digest(data.catalog(), (data.folder / "data/sub/tiny.clf").string());
+  };
+  std::set<std::string> seen{by_path(), digest(data.catalog(), "tiny")};
+  EXPECT_EQ(seen.size(), 2U) << "the catalogue's calibration";
+  Catalog other = data.catalog();
+  other.entries[0].robot->wheels.track_m = 0.34;
+  EXPECT_TRUE(seen.insert(digest(other, "tiny")).second) << "another track";
+  const auto changes_with = [&](const std::string& suffix, const std::string& text) {
+    data.folder.write("data/sub/tiny" + suffix, text);
+    return seen.insert(by_path()).second;
+  };
+  EXPECT_TRUE(changes_with(".tum", "1.0 0 0 0 0 0 0 1\n"));
+  EXPECT_TRUE(changes_with(".tum", "1.0 0.5 0 0 0 0 0 1\n"));
+  EXPECT_TRUE(changes_with(".truth.toml", "[world]\n"));
+  EXPECT_TRUE(changes_with(".robot.toml", "[wheels]\ntrack_m = 0.35\n"));
+  EXPECT_TRUE(changes_with(".relations", "1.0 1.5 0.2 0 0 0 0 0\n"));
+  EXPECT_TRUE(changes_with(".clf", std::string(kScans) + "# more\n"));
+  EXPECT_FALSE(changes_with(".txt", "not read with the log"));
+}
+
+TEST(LoadDataset, TheDigestOfALogAloneIsThatOfItsBytes) {
+  const ScratchFolder folder;
+  const auto loaded = load_dataset(folder.write("a.clf", kScans).string(), {}, Catalog{});
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+  EXPECT_EQ(loaded->digest, kScansSha256);
 }
 
 TEST(LoadDataset, OtherBytesUnderAKnownNameAreRefusedUnlessAskedFor) {
