@@ -10,6 +10,7 @@ double to_s(std::chrono::steady_clock::duration duration) {
 }  // namespace
 
 Stage StageClock::switch_to(Stage stage) {
+  if (is_finishing_) stage = Stage::kFinish;
   const auto now = Clock::now();
   step_times_[static_cast<std::size_t>(current_)] += now - since_;
   since_ = now;
@@ -23,6 +24,7 @@ void StageClock::begin_step(Stage base) {
   step_times_.fill({});
   is_entered_.fill(false);
   is_entered_[static_cast<std::size_t>(base)] = true;
+  is_finishing_ = base == Stage::kFinish;
   current_ = base;
   step_begin_ = since_ = Clock::now();
 }

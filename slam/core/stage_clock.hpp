@@ -47,6 +47,8 @@ class StageClock {
   [[nodiscard]] Scope enter(Stage stage) { return Scope(*this, stage); }
 
   // The harness calls these around step() and finish(); time outside any scope counts as `base`.
+  // Inside a step of base kFinish every stage counts as kFinish: what a system does at the end is
+  // not a step's work, and the samples of a stage stay below the longest step of a scan.
   void begin_step(Stage base = Stage::kOther);
   void end_step();
 
@@ -62,6 +64,7 @@ class StageClock {
 
   Stage switch_to(Stage stage);
 
+  bool is_finishing_ = false;
   Stage current_ = Stage::kOther;
   Clock::time_point since_{};
   Clock::time_point step_begin_{};

@@ -143,6 +143,7 @@ TEST(Cost, CountsStepAndFinishOnlyAndItsStagesAddUp) {
     return Scripted::tracked(event, 0);
   };
   system.on_finish = [&] {
+    const auto scope = system.stage_clock().enter(Stage::kOptimise);
     nap();
     return SlamEstimate{};
   };

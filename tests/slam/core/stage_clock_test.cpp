@@ -100,6 +100,25 @@ TEST(StageClock, TimeOutsideAnyScopeCountsAsTheBaseOfTheStep) {
   EXPECT_TRUE(clock.samples_s(Stage::kOther).empty());
 }
 
+TEST(StageClock, WhateverIsEnteredWhileFinishingCountsAsFinish) {
+  StageClock clock;
+  clock.begin_step(Stage::kFinish);
+  {
+    const auto optimise = clock.enter(Stage::kOptimise);
+    const auto map = clock.enter(Stage::kMapUpdate);
+    work_for(std::chrono::milliseconds(1));
+  }
+  clock.end_step();
+  EXPECT_TRUE(clock.samples_s(Stage::kOptimise).empty());
+  EXPECT_TRUE(clock.samples_s(Stage::kMapUpdate).empty());
+  ASSERT_EQ(clock.samples_s(Stage::kFinish).size(), 1u);
+  EXPECT_NEAR(clock.samples_s(Stage::kFinish)[0], clock.step_samples_s()[0], kExact_s);
+  clock.begin_step();
+  { const auto optimise = clock.enter(Stage::kOptimise); }
+  clock.end_step();
+  EXPECT_EQ(clock.samples_s(Stage::kOptimise).size(), 1u) << "the next step is a step again";
+}
+
 TEST(StageClock, TimeBetweenStepsIsNobodys) {
   StageClock clock;
   clock.begin_step();
