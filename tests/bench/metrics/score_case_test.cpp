@@ -95,6 +95,18 @@ TEST(ScoreCase, StampsInMillisecondsAreRemarkedAndScoreNothing) {
   EXPECT_NE(remarks[0].find("only 1 of"), std::string::npos) << remarks[0];
 }
 
+TEST(ScoreCase, NoPoseAtAllIsNoQuestionOfStamps) {
+  const Case complete;
+  const Trajectory nothing;
+  auto evidence = complete.evidence();
+  evidence.final_trajectory = nullptr;
+  results::RunResult result;
+  EXPECT_TRUE(score_case(evidence, {}, result).empty());
+  EXPECT_EQ(result.poses_matched, 0);
+  evidence.final_trajectory = &nothing;
+  EXPECT_TRUE(score_case(evidence, {}, result).empty());
+}
+
 TEST(ScoreCase, ATruthOnAnotherClockIsRemarked) {
   const Case complete;
   Trajectory shifted;
