@@ -39,6 +39,7 @@ std::optional<ClockLine> clock_line(const std::vector<ClockPair>& pairs) {
   const std::int64_t first_us = pairs.front().stamp_us;
   const std::int64_t first_delay_us = pairs.front().received_us - first_us;
   std::vector<Point> points;
+  points.reserve(pairs.size());
   for (const ClockPair& pair : pairs) {
     points.push_back({static_cast<double>(pair.stamp_us - first_us),
                       static_cast<double>(pair.received_us - pair.stamp_us - first_delay_us)});

@@ -36,6 +36,7 @@ std::int64_t stamp_us(const Received<T>& received) {
 template <class T>
 std::int64_t median_delay_us(const std::vector<Received<T>>& list) {
   std::vector<std::int64_t> delays_us;
+  delays_us.reserve(list.size());
   for (const auto& received : list) delays_us.push_back(received.utime_us - stamp_us(received));
   const auto middle = delays_us.begin() + static_cast<std::ptrdiff_t>(delays_us.size() / 2);
   std::nth_element(delays_us.begin(), middle, delays_us.end());

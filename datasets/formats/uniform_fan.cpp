@@ -46,6 +46,7 @@ double regular_step_rad(std::vector<double>& steps_rad) {
 // A turn's angles lie on both sides of 0: the median of what is left over from a reference.
 double median_angle_rad(const std::vector<double>& angles_rad) {
   std::vector<double> differences_rad;
+  differences_rad.reserve(angles_rad.size());
   for (const double angle_rad : angles_rad) {
     differences_rad.push_back(wrap_angle(angle_rad - angles_rad.front()));
   }
