@@ -146,7 +146,7 @@ std::optional<bool> take_choice(TableReader& table, std::string_view key, std::s
   if (word == if_false) return false;
   if (!word.empty()) {
     wrong.push_back(
-        fmt::format("raw.{} = \"{}\": expected \"{}\" or \"{}\"", key, word, if_true, if_false));
+        fmt::format(R"(raw.{} = "{}": expected "{}" or "{}")", key, word, if_true, if_false));
   }
   return std::nullopt;
 }
