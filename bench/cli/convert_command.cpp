@@ -91,8 +91,8 @@ void ConvertCommand::add_to(CLI::App& command) {
 
 Result<ExitCode> ConvertCommand::run() const {
   const auto target = formats::format_from_suffix(out);
-  if (!target) {
-    return fail(ErrorCode::kUnsupported, "the suffix names no log format", out,
+  if (!target || !formats::is_writable(*target)) {
+    return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written", out,
                 ".rawlog, .clf or .clf.gz");
   }
   if (const Result<void> folder = check_parent_folder(out); !folder) {

@@ -60,8 +60,9 @@ void SimulateCommand::add_to(CLI::App& command) {
 Result<ExitCode> SimulateCommand::run() const {
   const Result<std::uint64_t> drawn_from = seed_from_text(seed);
   if (!drawn_from) return tl::make_unexpected(drawn_from.error());
-  if (!formats::format_from_suffix(out)) {
-    return fail(ErrorCode::kUnsupported, "the suffix names no log format", out,
+  const auto format = formats::format_from_suffix(out);
+  if (!format || !formats::is_writable(*format)) {
+    return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written", out,
                 ".rawlog, .clf or .clf.gz");
   }
   if (const Result<void> good = check_targets(files_of(out)); !good) {

@@ -36,15 +36,25 @@ Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const Case
       {spec.profile, spec.overrides, spec.backend, data.log.robot, spec.system_seed, spec.threads});
 }
 
-// The map that one common mapper makes of a trajectory: every scan at its pose, scans without a
-// pose left out.
+// How the base moved during a sweep, as the trajectory has it; none where it does not reach.
+Eigen::Vector3d sweep_twist(const LaserScan& scan, const Pose2& T_map_base,
+                            const Trajectory& trajectory) {
+  if (scan.duration_s == 0) return Eigen::Vector3d::Zero();
+  const auto T_map_last = trajectory.interpolate(add_seconds(scan.stamp, scan.duration_s));
+  if (!T_map_last) return Eigen::Vector3d::Zero();
+  return T_map_last->minus(T_map_base) / scan.duration_s;
+}
+
+// The map that one common mapper makes of a trajectory: every scan at its pose, its sweep drawn
+// along the trajectory, scans without a pose left out.
 GridMap render_map(const SensorLog& log, const Trajectory& trajectory) {
   std::vector<mapping::PosedScan> scans;
   for (const SensorEvent& event : log.events) {
     const auto* scan = std::get_if<LaserScan>(&event);
     if (scan == nullptr) continue;
     const std::optional<Pose2> T_map_base = trajectory.interpolate(scan->stamp);
-    if (T_map_base) scans.push_back({*T_map_base, scan});
+    if (!T_map_base) continue;
+    scans.push_back({*T_map_base, scan, sweep_twist(*scan, *T_map_base, trajectory)});
   }
   return mapping::build_occupancy_map(scans, mapping::OccupancyMapperParams{});
 }

@@ -42,6 +42,7 @@ DataDirs standard_data_dirs(const std::optional<std::filesystem::path>& data_dir
 
 std::string_view to_text(TruthKind kind) {
   if (kind == TruthKind::kTum) return "tum";
+  if (kind == TruthKind::kReference) return "reference";
   return kind == TruthKind::kRelations ? "relations" : "none";
 }
 
@@ -50,7 +51,9 @@ std::string_view to_text(FileStatus status) {
   return status == FileStatus::kDiffers ? "differs" : "missing";
 }
 
-bool CatalogEntry::is_readable() const { return format == "carmen" || format == "rawlog"; }
+bool CatalogEntry::is_readable() const {
+  return format == "carmen" || format == "rawlog" || format == "lcm" || format == "ticks";
+}
 
 const CatalogEntry* Catalog::find(std::string_view name) const {
   for (const CatalogEntry& entry : entries) {

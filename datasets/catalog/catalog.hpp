@@ -24,7 +24,9 @@ struct DataDirs {
 // ($XDG_CACHE_HOME/corridor-bench or ~/.cache/corridor-bench), what Debian's mrpt-common installs.
 DataDirs standard_data_dirs(const std::optional<std::filesystem::path>& data_dir = {});
 
-enum class TruthKind { kNone, kTum, kRelations };
+// kReference: poses in the log itself that another program found while it was recorded; good for
+// comparing with that program, no truth.
+enum class TruthKind { kNone, kTum, kRelations, kReference };
 std::string_view to_text(TruthKind kind);
 
 struct DataFile {
@@ -35,14 +37,16 @@ struct DataFile {
 struct CatalogEntry {
   std::string name;
   std::string title;
-  std::string format;           // "rawlog", "carmen"; others are listed, but not readable yet
+  std::string format;           // "rawlog", "carmen", "lcm", "ticks"; others are not readable
   std::vector<DataFile> files;  // the first is the log
   TruthKind truth = TruthKind::kNone;
   std::string licence;  // as its publisher states it
   std::string source;   // where the public gets it
   formats::StampOrder order = formats::StampOrder::kStamp;
   std::optional<double> no_return_range_m;
+  std::optional<double> cut_after_s;
   std::optional<RobotModel> robot;  // calibration for logs that carry none
+  formats::RawSensors raw;
 
   [[nodiscard]] bool is_readable() const;
 };

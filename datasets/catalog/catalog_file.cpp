@@ -15,10 +15,11 @@ namespace corridor::catalog {
 namespace {
 
 constexpr std::size_t kSha256Digits = 64;
-constexpr std::array<std::string_view, 10> kKeys = {"name",       "title",  "format",
-                                                    "files",      "truth",  "order",
-                                                    "licence",    "source", "no_return_range_m",
-                                                    "calibration"};
+constexpr std::array<std::string_view, 11> kKeys = {
+    "name",        "title",      "format",
+    "files",       "truth",      "order",
+    "licence",     "source",     "no_return_range_m",
+    "cut_after_s", "calibration"};
 
 class EntryReader {
  public:
@@ -38,7 +39,8 @@ class EntryReader {
     entry_.source = text("source");
     take_files();
     take_choices();
-    take_no_return_range();
+    entry_.no_return_range_m = positive_number("no_return_range_m");
+    entry_.cut_after_s = positive_number("cut_after_s");
     take_calibration();
     return std::move(entry_);
   }
@@ -86,8 +88,10 @@ class EntryReader {
       entry_.truth = TruthKind::kTum;
     } else if (truth == "relations") {
       entry_.truth = TruthKind::kRelations;
+    } else if (truth == "reference") {
+      entry_.truth = TruthKind::kReference;
     } else if (truth != "none") {
-      complain("truth", "expected tum, relations or none");
+      complain("truth", "expected tum, relations, reference or none");
     }
     const std::string order = text("order");
     if (order == "file") {
@@ -97,13 +101,14 @@ class EntryReader {
     }
   }
 
-  void take_no_return_range() {
-    const auto node = table_["no_return_range_m"];
-    if (!node) return;
-    entry_.no_return_range_m = node.value<double>();
-    if (!entry_.no_return_range_m || !(*entry_.no_return_range_m > 0)) {
-      complain("no_return_range_m", "expected a number > 0");
+  std::optional<double> positive_number(std::string_view key) {
+    const auto node = table_[key];
+    if (!node) return std::nullopt;
+    const auto value = node.value<double>();
+    if (!value || !(*value > 0) || !std::isfinite(*value)) {
+      complain(std::string(key), "expected a number > 0");
     }
+    return value;
   }
 
   void take_calibration() {
@@ -121,6 +126,7 @@ class EntryReader {
       wrong_.push_back(stated.error().to_line());
     } else {
       entry_.robot = std::move(stated->robot);
+      entry_.raw = stated->raw;
     }
   }
 

@@ -110,7 +110,7 @@ Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs
     return fail(ErrorCode::kUnsupported,
                 fmt::format("data set {}: format {} is not readable by this version", entry.name,
                             entry.format),
-                "catalogue", "carmen or rawlog");
+                "catalogue", "carmen, rawlog, lcm or ticks");
   }
   const auto folder = find_folder(entry, dirs);
   if (!folder) {
@@ -125,6 +125,8 @@ Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs
   read.order = options.order.value_or(entry.order);
   read.no_return_range_m = entry.no_return_range_m;
   read.robot = entry.robot;
+  read.raw = entry.raw;
+  read.cut_after_s = entry.cut_after_s;
   auto loaded = load_file(*folder / entry.files.front().path, read);
   if (!loaded) return loaded;
   loaded->name = loaded->log.provenance.name = entry.name;

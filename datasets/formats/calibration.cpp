@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "datasets/formats/robot_toml.hpp"
@@ -36,6 +37,14 @@ const LaserScan* first_scan(const ParsedLog& log) {
     if (const auto* scan = std::get_if<LaserScan>(&event)) return scan;
   }
   return nullptr;
+}
+
+double median_duration_s(ParsedLog& log) {
+  std::vector<double> durations_s;
+  for_each_scan(log, [&](const LaserScan& scan) { durations_s.push_back(scan.duration_s); });
+  const auto middle = durations_s.begin() + static_cast<std::ptrdiff_t>(durations_s.size() / 2);
+  std::nth_element(durations_s.begin(), middle, durations_s.end());
+  return *middle;
 }
 
 // The log's own model, or the caller's; `states` tells what was said explicitly.
@@ -151,9 +160,13 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
       return tl::make_unexpected(applied.error());
     }
   }
+  if (log.is_time_offset_applied) robot.lidar.time_offset_s = 0;
+  if (log.scans_state_duration && first_scan(log) != nullptr) {
+    robot.lidar.scan_duration_s = median_duration_s(log);
+  }
   for_each_scan(log, [&](LaserScan& scan) {
     scan.range_min_m = robot.lidar.range_min_m;
-    scan.duration_s = robot.lidar.scan_duration_s;
+    if (!log.scans_state_duration) scan.duration_s = robot.lidar.scan_duration_s;
   });
   return robot;
 }

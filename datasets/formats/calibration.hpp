@@ -21,7 +21,7 @@ struct CalibrationSources {
 // model, the sidecar key by key. Where beams point, how far they reach and where the IMU sits is
 // taken from the readings themselves; a model that says otherwise is corrected with a note, a
 // sidecar that says otherwise corrects the scans with a note. Sets each scan's range_min_m and
-// duration_s.
+// duration_s (but for scans that state their own: their median becomes the model's).
 Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
                              std::vector<std::string>& notes);
 

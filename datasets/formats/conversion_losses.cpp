@@ -47,6 +47,7 @@ class LossFinder {
     std::size_t num_raw_ranges = 0;
     std::size_t num_at_limit = 0;
     std::size_t num_scans_alone = 0;
+    std::size_t num_swept = 0;
     std::optional<Timestamp> last_wheels;
     for (const SensorEvent& event : log_.events) {
       if (const auto* sample = std::get_if<WheelSample>(&event)) {
@@ -56,6 +57,7 @@ class LossFinder {
       const auto* scan = std::get_if<LaserScan>(&event);
       if (scan == nullptr) continue;
       if (last_wheels != scan->stamp) ++num_scans_alone;
+      if (scan->duration_s != 0) ++num_swept;
       for (std::size_t i = 0; i < scan->num_beams(); ++i) {
         const double range_m = scan->ranges_m[i];
         if (scan->is_valid[i] == 0 && range_m > 0 && range_m < scan->range_max_m) ++num_raw_ranges;
@@ -67,6 +69,7 @@ class LossFinder {
     note(num_raw_ranges, "beams without return lose their raw range");
     note(num_at_limit, "beams of exactly the maximum range become beams without return");
     note(num_scans_alone, "scans without a wheel sample of their stamp get an interpolated one");
+    note(num_swept, "scans lose the time their sweep took");
     lines_.emplace_back("the robot model is left out, but for the LiDAR's pose and range");
     return std::move(lines_);
   }
@@ -92,7 +95,9 @@ class LossFinder {
 
 std::vector<std::string> losses_of_conversion(const SensorLog& log, LogFormat target) {
   LossFinder finder(log);
-  return target == LogFormat::kRawlog ? finder.of_rawlog() : finder.of_carmen();
+  if (target == LogFormat::kRawlog) return finder.of_rawlog();
+  if (target == LogFormat::kCarmen) return finder.of_carmen();
+  return {};  // nothing is written in that format
 }
 
 }  // namespace corridor::formats

@@ -10,18 +10,24 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/formats/raw_sensors.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
 
 namespace corridor::formats {
 
-enum class LogFormat { kCarmen, kRawlog };
+enum class LogFormat { kCarmen, kRawlog, kLcm, kTicks };
 
-// "carmen", "rawlog".
+// "carmen", "rawlog", "lcm", "ticks".
 std::string_view to_text(LogFormat format);
 
-// Known log suffixes: .clf .clf.gz .log .log.gz (CARMEN), .rawlog .rawlog.gz (MRPT).
+// Known log suffixes: .clf .clf.gz .log .log.gz (CARMEN), .rawlog .rawlog.gz (MRPT), .lcm.log
+// .lcm.log.gz .lcm .lcm.gz (LCM event log), .dat .dat.gz (ticks). A .log that begins as an LCM
+// event log does is read as one.
 std::optional<LogFormat> format_from_suffix(const std::filesystem::path& log);
+
+// Logs of raw numbers (LCM, ticks) are read only.
+bool is_writable(LogFormat format);
 
 // The path with its known log suffix replaced: sidecar_of("a/b.clf.gz", ".tum") = "a/b.tum".
 std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_view suffix);
@@ -37,12 +43,19 @@ struct ReadLogOptions {
   // it is not given, ROBOTLASER1 lines state their own and FLASER lines take the robot model's
   // limit.
   std::optional<double> no_return_range_m;
-  // Calibration for logs that carry none; a log's own model and LOG.robot.toml go before it.
+  // Calibration for logs that carry none; a log's own model and LOG.robot.toml go before it. LCM
+  // and tick logs need the wheels of either to turn ticks into odometry.
   std::optional<RobotModel> robot;
+  // LCM: what the raw numbers mean; the table [raw] of LOG.robot.toml goes before it.
+  RawSensors raw;
+  // Readings later than this after the first are left out and counted: where a recording goes on
+  // after the drive.
+  std::optional<double> cut_after_s;
   LogLimits limits;
 };
 
-// Reads a log, its calibration LOG.robot.toml and its truth LOG.tum, where they lie beside it.
+// Reads a log, its calibration LOG.robot.toml and its truth LOG.tum, where they lie beside it. An
+// LCM log's own poses take the place of truth where there is no LOG.tum; provenance says so.
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options = {});
 
 // The suite's own format: the robot model as TOML in the leading comment, then LIDAR, WHEELS and

@@ -21,15 +21,25 @@ struct ParsedLog {
   // Where in the file each event stands: a line number (CARMEN) or a byte offset (rawlog).
   std::vector<std::uint64_t> origins;
   std::string origin_unit;  // "line", "byte"
+  std::string format;       // as in Provenance
   // The robot model that the log carries, and where.
   std::optional<std::string> robot_toml;
   // False for FLASER lines, which do not say where the LiDAR sits.
   bool scans_state_pose = true;
+  // True for logs with a moment for each beam: the scans' duration_s stands, the model's follows.
+  bool scans_state_duration = false;
+  // True if the scans' stamps lie on the wheels' clock already: nothing is left of
+  // lidar.time_offset_s.
+  bool is_time_offset_applied = false;
+  // Poses that another program found while the log was recorded: a reference, not truth.
+  std::optional<Trajectory> reference;
   // Where the log places its IMU.
   std::optional<Pose2> T_base_imu;
   // Counted repairs and things left out, by what was done: "beams of range 0 taken as no return"
   // -> 12.
   std::map<std::string, std::size_t> counts;
+  // What else was done, one line each.
+  std::vector<std::string> notes;
 
   void add(SensorEvent event, std::uint64_t origin) {
     events.push_back(std::move(event));

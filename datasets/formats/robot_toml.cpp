@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -96,17 +97,19 @@ void take_robot(const toml::table& document, RobotModel& robot, std::vector<std:
   table.refuse_other_keys();
 }
 
-void take_wheels(const toml::table& document, bool is_complete, WheelModel& wheels,
+// True if the keys without which ticks mean nothing are all there.
+bool take_wheels(const toml::table& document, bool is_complete, WheelModel& wheels,
                  std::vector<std::string>& wrong) {
   TableReader table(document, "wheels", wrong);
   if (is_complete) {
     for (const auto* key : {"track_m", "left_m_per_tick", "right_m_per_tick"}) table.require(key);
   }
-  table.number("track_m", wheels.track_m);
-  table.number("left_m_per_tick", wheels.left_m_per_tick);
-  table.number("right_m_per_tick", wheels.right_m_per_tick);
+  const bool has_track = table.number("track_m", wheels.track_m);
+  const bool has_left = table.number("left_m_per_tick", wheels.left_m_per_tick);
+  const bool has_right = table.number("right_m_per_tick", wheels.right_m_per_tick);
   table.number("sigma_m_per_sqrt_m", wheels.sigma_m_per_sqrt_m);
   table.refuse_other_keys();
+  return has_track && has_left && has_right;
 }
 
 void take_lidar(const toml::table& document, RobotOverride& stated,
@@ -134,17 +137,51 @@ void take_imu(const toml::table& document, RobotOverride& stated, std::vector<st
   table.refuse_other_keys();
 }
 
-void refuse_other_tables(const toml::table& document, std::vector<std::string>& wrong) {
+// One of two words; nothing if the key is not there.
+std::optional<bool> take_choice(TableReader& table, std::string_view key, std::string_view if_true,
+                                std::string_view if_false, std::vector<std::string>& wrong) {
+  std::string word;
+  table.text(key, word);
+  if (word == if_true) return true;
+  if (word == if_false) return false;
+  if (!word.empty()) {
+    wrong.push_back(
+        fmt::format(R"(raw.{} = "{}": expected "{}" or "{}")", key, word, if_true, if_false));
+  }
+  return std::nullopt;
+}
+
+void take_raw(const toml::table& document, RawSensors& raw, std::vector<std::string>& wrong) {
+  TableReader table(document, "raw", wrong);
+  if (const auto is_offset = take_choice(table, "clock", "event-offset", "data", wrong)) {
+    raw.clock = *is_offset ? RawClock::kEventOffset : RawClock::kData;
+  }
+  if (const auto is_clockwise =
+          take_choice(table, "lidar_angles", "clockwise", "counter-clockwise", wrong)) {
+    raw.is_lidar_clockwise = *is_clockwise;
+  }
+  table.number("accel_lsb_per_g", raw.accel_lsb_per_g);
+  table.number("gyro_lsb_per_dps", raw.gyro_lsb_per_dps);
+  if (!(raw.accel_lsb_per_g > 0) || !(raw.gyro_lsb_per_dps > 0)) {
+    wrong.emplace_back("raw.accel_lsb_per_g and raw.gyro_lsb_per_dps: expected numbers > 0");
+  }
+  table.refuse_other_keys();
+}
+
+// A model inside a log speaks of sensors in SI units: it has no [raw].
+void refuse_other_tables(const toml::table& document, bool may_be_raw,
+                         std::vector<std::string>& wrong) {
   for (const auto& [key, node] : document) {
     const std::string_view name = key.str();
-    if (name != "robot" && name != "wheels" && name != "lidar" && name != "imu") {
+    const bool is_raw = may_be_raw && name == "raw";
+    if (!is_raw && name != "robot" && name != "wheels" && name != "lidar" && name != "imu") {
       wrong.push_back(fmt::format("{}: unknown key", name));
     }
   }
 }
 
-Result<RobotOverride> parse(const RobotModel& base, bool is_complete, std::string_view text,
-                            std::string_view where) {
+Result<RobotOverride> parse(const RobotModel& base, const RawSensors& raw_base, bool is_complete,
+                            std::string_view text, std::string_view where) {
   toml::table document;
   try {
     document = toml::parse(text);
@@ -154,12 +191,14 @@ Result<RobotOverride> parse(const RobotModel& base, bool is_complete, std::strin
   }
   RobotOverride stated;
   stated.robot = base;
+  stated.raw = raw_base;
   std::vector<std::string> wrong;
-  refuse_other_tables(document, wrong);
+  refuse_other_tables(document, !is_complete, wrong);
   take_robot(document, stated.robot, wrong);
-  take_wheels(document, is_complete, stated.robot.wheels, wrong);
+  stated.states_wheels = take_wheels(document, is_complete, stated.robot.wheels, wrong);
   take_lidar(document, stated, wrong);
   take_imu(document, stated, wrong);
+  if (!is_complete) take_raw(document, stated.raw, wrong);
   for (std::string& line : violations(stated.robot)) wrong.push_back(std::move(line));
   if (!wrong.empty()) {
     return fail(ErrorCode::kInvalid, "robot model: " + one_line(wrong), std::string(where),
@@ -221,14 +260,14 @@ std::string robot_to_toml(const RobotModel& robot) {
 }
 
 Result<RobotModel> robot_from_toml(std::string_view text, std::string_view where) {
-  auto stated = parse(RobotModel{}, true, text, where);
+  auto stated = parse(RobotModel{}, RawSensors{}, true, text, where);
   if (!stated) return tl::make_unexpected(stated.error());
   return std::move(stated->robot);
 }
 
 Result<RobotOverride> override_robot(const RobotModel& base, std::string_view text,
-                                     std::string_view where) {
-  return parse(base, false, text, where);
+                                     std::string_view where, const RawSensors& raw_base) {
+  return parse(base, raw_base, false, text, where);
 }
 
 }  // namespace corridor::formats

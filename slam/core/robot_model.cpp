@@ -41,7 +41,7 @@ std::vector<std::string> violations(const RobotModel& robot) {
                                       robot.lidar.range_min_m, robot.lidar.range_max_m));
   }
   check.not_negative("lidar.range_sigma_m", robot.lidar.range_sigma_m);
-  check.not_negative("lidar.scan_duration_s", robot.lidar.scan_duration_s);
+  check.finite("lidar.scan_duration_s", std::isfinite(robot.lidar.scan_duration_s));
   check.finite("lidar.time_offset_s", std::isfinite(robot.lidar.time_offset_s));
   check.finite("imu pose", robot.imu.T_base_imu.is_finite());
   check.positive("imu.rate_hz", robot.imu.rate_hz);

@@ -21,8 +21,8 @@ struct LidarModel {
   double range_min_m = 0.05;
   double range_max_m = 30.0;
   double range_sigma_m = 0.02;
-  double scan_duration_s = 0;
-  double time_offset_s = 0;  // LiDAR clock minus wheel clock
+  double scan_duration_s = 0;  // as LaserScan's: negative for a LiDAR that turns clockwise
+  double time_offset_s = 0;    // LiDAR clock minus wheel clock
 };
 
 struct ImuModel {

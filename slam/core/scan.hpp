@@ -13,16 +13,17 @@
 namespace corridor {
 
 // Beams are ordered counter-clockwise: beam i points to angle_min_rad + i * angle_increment_rad in
-// the LiDAR frame and was taken at stamp + i * duration_s / (n - 1).
+// the LiDAR frame and was taken at stamp + i * duration_s / (n - 1). A LiDAR that turns clockwise
+// takes beam 0 last: its scans have the stamp of their end and a negative duration.
 // A beam without return keeps its raw range and has is_valid[i] == 0: some systems need the raw
 // value.
 struct LaserScan {
-  Timestamp stamp;  // of the first beam
+  Timestamp stamp;  // of beam 0
   double angle_min_rad = 0;
   double angle_increment_rad = 0;
   double range_min_m = 0;
   double range_max_m = 0;  // the sensor's limit; a valid range is never longer
-  double duration_s = 0;   // first to last beam; 0 = all at once
+  double duration_s = 0;   // beam 0 to beam n - 1; 0 = all at once
   Pose2 T_base_lidar;
   std::vector<float> ranges_m;
   std::vector<std::uint8_t> is_valid;  // same length; 1 = a surface was hit

@@ -60,7 +60,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       const auto stage = stage_clock().enter(Stage::kMapUpdate);
       std::vector<mapping::PosedScan> scans;
       for (std::uint32_t k = 0; k < key_scans_.size(); ++k) {
-        scans.push_back({estimate().pose(k), &key_scans_[k].scan});
+        scans.push_back({estimate().pose(k), &key_scans_[k].scan, key_scans_[k].twist_base});
       }
       result.map = mapping::build_occupancy_map(scans, params_.map);
     }
@@ -233,7 +233,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       num_failed_solves_ += is_solved() ? 0 : 1;
     }
     if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
-    key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), path_m_});
+    key_scans_.push_back(
+        {scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), path_m_, twist_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
     begin_interval(scan.stamp);

@@ -26,11 +26,18 @@ struct Beam {
 template <class Visitor>
 void for_each_beam(const PosedScan& posed, bool use_no_returns, Visitor&& visit) {
   const LaserScan& scan = *posed.scan;
-  const Eigen::Vector2d sensor = posed.T_map_base * scan.T_base_lidar.translation_m();
-  const Pose2 T_map_lidar = posed.T_map_base * scan.T_base_lidar;
+  const bool is_swept = scan.duration_s != 0 && !posed.twist_base.isZero();
+  Eigen::Vector2d sensor = posed.T_map_base * scan.T_base_lidar.translation_m();
+  Pose2 T_map_lidar = posed.T_map_base * scan.T_base_lidar;
   for (std::size_t i = 0; i < scan.num_beams(); ++i) {
     const bool is_hit = scan.is_valid[i] != 0;
     if (!is_hit && !use_no_returns) continue;
+    if (is_swept) {
+      const Pose2 T_map_base =
+          posed.T_map_base * Pose2::exp(posed.twist_base * scan.beam_time_s(i));
+      sensor = T_map_base * scan.T_base_lidar.translation_m();
+      T_map_lidar = T_map_base * scan.T_base_lidar;
+    }
     const double range_m = is_hit ? static_cast<double>(scan.ranges_m[i]) : scan.range_max_m;
     const double angle = scan.angle_rad(i);
     const Eigen::Vector2d end =

@@ -33,8 +33,11 @@ struct OccupancyMapperParams {
 };
 
 struct PosedScan {
-  Pose2 T_map_base;
+  Pose2 T_map_base;  // at the scan's stamp
   const LaserScan* scan = nullptr;
+  // Motion of the base during the sweep per second, (x [m/s], y [m/s], theta [rad/s]): each beam is
+  // drawn from where it was taken. Scans taken all at once have none.
+  Eigen::Vector3d twist_base = Eigen::Vector3d::Zero();
 };
 
 // Sized to the scans' extent plus one cell; empty if there is no valid beam.

@@ -72,7 +72,10 @@ TEST(Catalog, OfTheSourceTreeIsValidAndHasEveryNameOfTheCommandLine) {
     EXPECT_NE(catalog->find(name), nullptr) << name;
   }
   EXPECT_EQ(catalog->find("intel")->no_return_range_m, 81.0);
-  EXPECT_FALSE(catalog->find("mines")->is_readable());
+  for (const CatalogEntry& entry : catalog->entries) EXPECT_TRUE(entry.is_readable()) << entry.name;
+  EXPECT_EQ(catalog->find("mbot-a0")->raw.clock, formats::RawClock::kEventOffset);
+  EXPECT_EQ(catalog->find("mbot-empty")->raw.clock, formats::RawClock::kData);
+  EXPECT_EQ(to_text(catalog->find("mbot-empty")->truth), "reference");
   EXPECT_EQ(catalog->find("none"), nullptr);
 }
 
@@ -210,7 +213,7 @@ TEST(LoadDataset, SaysWhatItLookedForAndWhere) {
 TEST(LoadDataset, AFormatThatIsNotReadableIsSaidToBeSo) {
   const TinyData data;
   Catalog catalog = data.catalog();
-  catalog.entries[0].format = "lcm";
+  catalog.entries[0].format = "bag";
   const auto loaded = load_dataset("tiny", data.dirs, catalog);
   ASSERT_FALSE(loaded.has_value());
   EXPECT_EQ(loaded.error().code, ErrorCode::kUnsupported);
@@ -301,7 +304,9 @@ TEST(Catalog, EveryReadableDatasetThatIsFoundLoads) {
     const auto loaded = load_dataset(row.name, dirs, *catalog);
     ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
     EXPECT_EQ(loaded->relations.has_value(), row.truth == TruthKind::kRelations) << row.name;
-    EXPECT_EQ(loaded->log.truth.has_value(), row.truth == TruthKind::kTum) << row.name;
+    EXPECT_EQ(loaded->log.truth.has_value(),
+              row.truth == TruthKind::kTum || row.truth == TruthKind::kReference)
+        << row.name;
     for (const std::string& note : loaded->log.provenance.notes) {
       EXPECT_EQ(note.find("robot model"), std::string::npos) << row.name << ": " << note;
     }

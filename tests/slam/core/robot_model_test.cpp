@@ -19,7 +19,7 @@ TEST(RobotModel, EveryBrokenRuleIsNamed) {
                  .range_min_m = -1,
                  .range_max_m = 0,
                  .range_sigma_m = INFINITY,
-                 .scan_duration_s = -1,
+                 .scan_duration_s = NAN,
                  .time_offset_s = NAN};
   robot.imu = {.T_base_imu = Pose2(0, 0, NAN),
                .rate_hz = 0,

@@ -35,6 +35,26 @@ TEST(OccupancyMapper, MarksTheEndOccupiedAndThePathFree) {
   EXPECT_FALSE(map.at(end.x() + 1, end.y()).is_observed);
 }
 
+// The robot turns left by half a turn while a clockwise LiDAR takes beams at +90 and -90 degrees,
+// the latter first: both saw the same wall to the robot's left at the sweep's end.
+TEST(OccupancyMapper, DrawsEachBeamOfASweepFromWhereItWasTaken) {
+  LaserScan scan = one_beam(-std::acos(-1) / 2, 1.02);
+  scan.angle_increment_rad = std::acos(-1);
+  scan.ranges_m = {1.02F, 1.02F};
+  scan.is_valid = {1, 1};
+  scan.duration_s = -1;
+  PosedScan posed{{0.01, 0.01, 0}, &scan, {0, 0, std::acos(-1)}};
+  const auto hits_at = [&posed](double x_m, double y_m) {
+    const GridMap map = build_occupancy_map({&posed, 1}, {});
+    const Eigen::Vector2i cell = map.cell_of({x_m, y_m});
+    return map.contains(cell.x(), cell.y()) ? map.at(cell.x(), cell.y()).hits : 0;
+  };
+  EXPECT_EQ(hits_at(0.01, -1.01), 2);
+  posed.twist_base.setZero();
+  EXPECT_EQ(hits_at(0.01, -1.01), 1);
+  EXPECT_EQ(hits_at(0.01, 1.03), 1);
+}
+
 TEST(OccupancyMapper, PassesExactlyTheCellsOfADiagonal) {
   OccupancyMapperParams params;
   params.resolution_m = 1;

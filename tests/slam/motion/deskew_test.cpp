@@ -9,10 +9,10 @@ namespace corridor::motion {
 namespace {
 
 // A wall at x = 3 m seen over +-60 degrees while the robot moves with a constant twist.
-LaserScan sweep_of_wall(const Eigen::Vector3d& twist) {
+LaserScan sweep_of_wall(const Eigen::Vector3d& twist, double duration_s = 0.1) {
   LaserScan scan;
   scan.range_max_m = 20;
-  scan.duration_s = 0.1;
+  scan.duration_s = duration_s;
   constexpr int kBeams = 121;
   scan.angle_min_rad = -std::numbers::pi / 3;
   scan.angle_increment_rad = 2 * std::numbers::pi / 3 / (kBeams - 1);
@@ -29,6 +29,14 @@ LaserScan sweep_of_wall(const Eigen::Vector3d& twist) {
 TEST(DeskewedPoints, PutAWallSeenInMotionBackOnItsLine) {
   const Eigen::Vector3d twist(1.0, 0.2, 1.5);
   const auto points = deskewed_points(sweep_of_wall(twist), twist, 20);
+  ASSERT_EQ(points.size(), 121u);
+  for (const Eigen::Vector2d& p : points) EXPECT_NEAR(p.x(), 3, 1e-5);
+}
+
+// Beam 0 was taken last: the robot's pose at the stamp is that of the sweep's end.
+TEST(DeskewedPoints, PutAWallSeenByAClockwiseLidarBackOnItsLine) {
+  const Eigen::Vector3d twist(1.0, 0.2, 1.5);
+  const auto points = deskewed_points(sweep_of_wall(twist, -0.1), twist, 20);
   ASSERT_EQ(points.size(), 121u);
   for (const Eigen::Vector2d& p : points) EXPECT_NEAR(p.x(), 3, 1e-5);
 }
