@@ -4,19 +4,17 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/text.hpp"
+#include "datasets/formats/trajectory_rules.hpp"
 
 namespace corridor::formats {
 namespace {
 
 constexpr std::size_t kNumFields = 8;
-// Files with six decimals have quaternions this far from unit length; more is not a rotation.
-constexpr double kMaxNormError = 1e-3;
-// sin of half of the largest roll or pitch that still counts as planar.
-constexpr double kMaxTilt = 0.5e-6;
 constexpr const char* kLayout = "'stamp x y z qx qy qz qw'";
 
 struct PlanarPose {
@@ -35,23 +33,13 @@ Result<PlanarPose> parse_pose(std::string_view line, const std::string& where) {
     return fail(ErrorCode::kMalformed, "stamp " + quote(fields[0]), where, "decimal seconds");
   }
   std::array<double, kNumFields - 1> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto number = parse_double(fields[i + 1]);
-    if (!number || !std::isfinite(*number)) {
-      return fail(ErrorCode::kMalformed, "field " + quote(fields[i + 1]), where, "a finite number");
-    }
-    numbers[i] = *number;
+  if (auto good = parse_finite(std::span(fields).subspan(1), where, numbers); !good) {
+    return tl::make_unexpected(good.error());
   }
   const auto [x_m, y_m, z_m, qx, qy, qz, qw] = numbers;
-  const double norm = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
-  if (std::abs(norm - 1) > kMaxNormError) {
-    return fail(ErrorCode::kInvalid, fmt::format("quaternion of length {:.6g}", norm), where, "1");
-  }
-  if (std::hypot(qx, qy) > kMaxTilt) {
-    return fail(ErrorCode::kUnsupported, fmt::format("roll or pitch (qx = {}, qy = {})", qx, qy),
-                where, "a planar pose, qx = qy = 0");
-  }
-  return PlanarPose{*stamp, Pose2(x_m, y_m, 2 * std::atan2(qz, qw))};
+  const auto yaw_rad = yaw_of_quaternion(qx, qy, qz, qw, where);
+  if (!yaw_rad) return tl::make_unexpected(yaw_rad.error());
+  return PlanarPose{*stamp, Pose2(x_m, y_m, *yaw_rad)};
 }
 
 }  // namespace
@@ -66,10 +54,11 @@ Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
     if (first.empty() || first.front() == '#') continue;
     const auto pose = parse_pose(*line, where);
     if (!pose) return tl::make_unexpected(pose.error());
-    if (!trajectory.append({pose->stamp, pose->T_map_base, std::nullopt})) {
-      return fail(ErrorCode::kInvalid, "stamp " + quote(first) + " is not later than the last",
-                  where, "stamps that increase");
-    }
+    auto appended = append_pose(trajectory, pose->stamp, pose->T_map_base, first, where);
+    if (!appended) return tl::make_unexpected(appended.error());
+  }
+  if (auto good = check_stamp_unit(trajectory, name, "seconds"); !good) {
+    return tl::make_unexpected(good.error());
   }
   return trajectory;
 }
