@@ -44,7 +44,7 @@ void ConvertCommand::add_to(CLI::App& command) {
       ->type_name("IN");
   command
       .add_option("out", out,
-                  "Log (.rawlog .clf .clf.gz; truth and world go beside it), trajectory (.tum "
+                  "Log (.rawlog .clf .clf.gz .bag; truth and world go beside it), trajectory (.tum "
                   ".kitti .csv .clf) or pose graph (.g2o .graph)")
       ->required()
       ->type_name("OUT");

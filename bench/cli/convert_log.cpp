@@ -79,7 +79,7 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out,
   const auto target = formats::format_from_suffix(out);
   if (!target) {
     return fail(ErrorCode::kUnsupported, "the suffix names no log format", out.string(),
-                ".rawlog, .clf or .clf.gz");
+                ".rawlog, .clf, .clf.gz or .bag");
   }
   const Result<catalog::LoadedDataset> loaded = catalog::load_dataset(in, common.data_dirs());
   if (!loaded) return tl::make_unexpected(loaded.error());

@@ -50,7 +50,9 @@ std::string_view to_text(FileStatus status) {
   return status == FileStatus::kDiffers ? "differs" : "missing";
 }
 
-bool CatalogEntry::is_readable() const { return format == "carmen" || format == "rawlog"; }
+bool CatalogEntry::is_readable() const {
+  return format == "carmen" || format == "rawlog" || format == "rosbag";
+}
 
 const CatalogEntry* Catalog::find(std::string_view name) const {
   for (const CatalogEntry& entry : entries) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/formats/bag_topics.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "datasets/formats/relations.hpp"
 #include "slam/core/result.hpp"
@@ -35,14 +36,15 @@ struct DataFile {
 struct CatalogEntry {
   std::string name;
   std::string title;
-  std::string format;           // "rawlog", "carmen"; others are listed, but not readable yet
+  std::string format;           // "rawlog", "carmen", "rosbag"; others are listed only
   std::vector<DataFile> files;  // the first is the log
   TruthKind truth = TruthKind::kNone;
   std::string licence;  // as its publisher states it
   std::string source;   // where the public gets it
   formats::StampOrder order = formats::StampOrder::kStamp;
   std::optional<double> no_return_range_m;
-  std::optional<RobotModel> robot;  // calibration for logs that carry none
+  std::optional<RobotModel> robot;           // calibration for logs that carry none
+  std::optional<formats::BagTopics> topics;  // of a ROS bag
 
   [[nodiscard]] bool is_readable() const;
 };

@@ -74,7 +74,7 @@ Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs
     return fail(ErrorCode::kUnsupported,
                 fmt::format("data set {}: format {} is not readable by this version", entry.name,
                             entry.format),
-                "catalogue", "carmen or rawlog");
+                "catalogue", "carmen, rawlog or rosbag");
   }
   const auto folder = find_folder(entry, dirs);
   if (!folder) {
@@ -89,6 +89,7 @@ Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs
   read.order = options.order.value_or(entry.order);
   read.no_return_range_m = entry.no_return_range_m;
   read.robot = entry.robot;
+  read.topics = entry.topics;
   auto loaded = load_file(*folder / entry.files.front().path, read);
   if (!loaded) return loaded;
   loaded->name = loaded->log.provenance.name = entry.name;

@@ -6,24 +6,27 @@
 #include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
+#include "datasets/formats/bag.hpp"
 #include "datasets/formats/calibration.hpp"
 #include "datasets/formats/carmen.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/parsed_log.hpp"
 #include "datasets/formats/rawlog.hpp"
 #include "datasets/formats/stamp_order.hpp"
+#include "datasets/formats/tick_odometry.hpp"
 #include "datasets/formats/tum.hpp"
 
 namespace corridor::formats {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, LogFormat>, 6> kSuffixes = {{
+constexpr std::array<std::pair<std::string_view, LogFormat>, 7> kSuffixes = {{
     {".clf.gz", LogFormat::kCarmen},
     {".clf", LogFormat::kCarmen},
     {".log.gz", LogFormat::kCarmen},
     {".log", LogFormat::kCarmen},
     {".rawlog.gz", LogFormat::kRawlog},
     {".rawlog", LogFormat::kRawlog},
+    {".bag", LogFormat::kRosbag},
 }};
 // SICK LMS 200 family, the sensor of the FLASER era: codes from here on say "no return".
 constexpr double kFlaserRangeMax_m = 81.0;
@@ -40,11 +43,34 @@ bool is_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
+constexpr const char* kKnownSuffixes =
+    "a name that ends in .clf .clf.gz .log .log.gz .rawlog .rawlog.gz or .bag";
+
+Result<BagTopics> topics_of(const std::filesystem::path& path, const ReadLogOptions& options) {
+  const std::filesystem::path sidecar = sidecar_of(path, ".topics.toml");
+  if (!is_file(sidecar)) return options.topics.value_or(BagTopics{});
+  const auto text = read_file_bytes(sidecar);
+  if (!text) return tl::make_unexpected(text.error());
+  return bag_topics_from_toml(*text, sidecar.string());
+}
+
+Result<ParsedLog> parse_rosbag(std::string_view bytes, const std::filesystem::path& path,
+                               const ReadLogOptions& options) {
+  std::error_code error;
+  // rosbag opens the file itself, and must find the bytes that are checked here.
+  if (std::filesystem::file_size(path, error) != bytes.size()) {
+    return fail(ErrorCode::kUnsupported, "the bag is compressed as a whole", path.string(),
+                "a bag; its chunks may be compressed");
+  }
+  const auto topics = topics_of(path, options);
+  if (!topics) return tl::make_unexpected(topics.error());
+  return parse_bag(bytes, path, {*topics, options.order == StampOrder::kFile});
+}
+
 Result<ParsedLog> parse(const std::filesystem::path& path, const ReadLogOptions& options) {
   const auto format = format_from_suffix(path);
   if (!format) {
-    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(),
-                "a name that ends in .clf .clf.gz .log .log.gz .rawlog or .rawlog.gz");
+    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(), kKnownSuffixes);
   }
   const auto bytes = read_file_bytes(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
@@ -52,6 +78,7 @@ Result<ParsedLog> parse(const std::filesystem::path& path, const ReadLogOptions&
     return fail(ErrorCode::kMalformed, "the log is empty", path.string(), "at least one scan");
   }
   if (*format == LogFormat::kRawlog) return parse_rawlog(*bytes, path.string());
+  if (*format == LogFormat::kRosbag) return parse_rosbag(*bytes, path, options);
   CarmenOptions carmen;
   carmen.no_return_range_m = options.no_return_range_m;
   carmen.flaser_range_max_m = options.robot ? options.robot->lidar.range_max_m : kFlaserRangeMax_m;
@@ -104,6 +131,7 @@ Result<void> refuse_defects(const SensorLog& log, const LogLimits& limits) {
 }  // namespace
 
 std::string_view to_text(LogFormat format) {
+  if (format == LogFormat::kRosbag) return "rosbag";
   return format == LogFormat::kCarmen ? "carmen" : "rawlog";
 }
 
@@ -138,6 +166,7 @@ Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptio
   if (!robot) return tl::make_unexpected(robot.error());
   log.robot = std::move(*robot);
   log.events = std::move(parsed->events);
+  if (parsed->has_wheel_ticks_only) integrate_wheel_ticks(log.events, log.robot.wheels);
   if (auto attached = attach_truth(path, log); !attached) {
     return tl::make_unexpected(attached.error());
   }
@@ -166,13 +195,18 @@ Result<void> write_carmen(const SensorLog& log, const std::filesystem::path& pat
   return write_file_atomically(path, *compressed);
 }
 
+Result<void> write_rosbag(const SensorLog& log, const std::filesystem::path& path) {
+  return write_bag_file(log, path);
+}
+
 Result<void> write_log(const SensorLog& log, const std::filesystem::path& path) {
   const auto format = format_from_suffix(path);
   if (!format) {
-    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(),
-                "a name that ends in .clf .clf.gz .log .log.gz .rawlog or .rawlog.gz");
+    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(), kKnownSuffixes);
   }
-  auto written = *format == LogFormat::kRawlog ? write_rawlog(log, path) : write_carmen(log, path);
+  auto written = *format == LogFormat::kRawlog   ? write_rawlog(log, path)
+                 : *format == LogFormat::kRosbag ? write_rosbag(log, path)
+                                                 : write_carmen(log, path);
   if (!written || !log.truth) return written;
   return write_tum(*log.truth, sidecar_of(path, ".tum"));
 }

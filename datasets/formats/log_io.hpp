@@ -10,17 +10,19 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/formats/bag_topics.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
 
 namespace corridor::formats {
 
-enum class LogFormat { kCarmen, kRawlog };
+enum class LogFormat { kCarmen, kRawlog, kRosbag };
 
-// "carmen", "rawlog".
+// "carmen", "rawlog", "rosbag".
 std::string_view to_text(LogFormat format);
 
-// Known log suffixes: .clf .clf.gz .log .log.gz (CARMEN), .rawlog .rawlog.gz (MRPT).
+// Known log suffixes: .clf .clf.gz .log .log.gz (CARMEN), .rawlog .rawlog.gz (MRPT),
+// .bag (ROS 1).
 std::optional<LogFormat> format_from_suffix(const std::filesystem::path& log);
 
 // The path with its known log suffix replaced: sidecar_of("a/b.clf.gz", ".tum") = "a/b.tum".
@@ -40,9 +42,12 @@ struct ReadLogOptions {
   // Calibration for logs that carry none; a log's own model and LOG.robot.toml go before it.
   std::optional<RobotModel> robot;
   LogLimits limits;
+  // ROS bags: which topic is which sensor; LOG.topics.toml goes before it.
+  std::optional<BagTopics> topics;
 };
 
-// Reads a log, its calibration LOG.robot.toml and its truth LOG.tum, where they lie beside it.
+// Reads a log, its calibration LOG.robot.toml, a bag's LOG.topics.toml and its truth LOG.tum, where
+// they lie beside it.
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options = {});
 
 // The suite's own format: the robot model as TOML in the leading comment, then LIDAR, WHEELS and
@@ -52,6 +57,10 @@ Result<void> write_rawlog(const SensorLog& log, const std::filesystem::path& pat
 // ROBOTLASER1 and ODOM lines with stamps of 9 decimals; gzip-compressed if the name ends in .gz.
 // Writes no truth. An Error if the log has no scan.
 Result<void> write_carmen(const SensorLog& log, const std::filesystem::path& path);
+
+// Topics /scan, /odom and /imu of a ROS 1 bag, LZ4. Writes no truth. An Error if a stamp does not
+// fit ROS time.
+Result<void> write_rosbag(const SensorLog& log, const std::filesystem::path& path);
 
 // By the suffix of `path`, including truth as LOG.tum beside it.
 Result<void> write_log(const SensorLog& log, const std::filesystem::path& path);
