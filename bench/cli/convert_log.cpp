@@ -48,6 +48,11 @@ Result<void> check_convert(const catalog::LoadedDataset& in, const fs::path& out
     return fail(ErrorCode::kInvalid, "this file would pass for one of the new log",
                 file.target.string(), "another name for the log, or that file removed");
   }
+  const fs::path topics = formats::sidecar_of(out, ".topics.toml");
+  if (formats::format_from_suffix(out) == formats::LogFormat::kRosbag && fs::exists(topics)) {
+    return fail(ErrorCode::kInvalid, "this file would name the topics of the new bag",
+                topics.string(), "another name for the bag, or that file removed");
+  }
   return check_targets({out});
 }
 

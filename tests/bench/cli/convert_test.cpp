@@ -58,6 +58,34 @@ TEST(Convert, TakesAGraphToToroAndBackWithoutChangingANumber) {
             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0.1 0.2 2 0.3 3\n");
 }
 
+TEST(Convert, TakesALogToARosBagAndBack) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  const Answer there = run_program(folder, "convert a.rawlog b.bag");
+  ASSERT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_NE(there.out.find("lost: the robot model"), std::string::npos) << there.out;
+  EXPECT_EQ(text_of(folder / "b.tum"), text_of(folder / "a.tum"));
+  const Answer back = run_program(folder, "convert b.bag c.rawlog");
+  ASSERT_EQ(back.exit_code, 0) << back.err;
+  // Both end with "NAME: N scans, N wheel samples, N inertial samples".
+  const auto counts = [](const std::string& said) {
+    const std::size_t begin = said.rfind(": ") + 2;
+    return said.substr(begin, said.find(" inertial") - begin);
+  };
+  EXPECT_EQ(counts(back.out), counts(there.out));
+}
+
+TEST(Convert, RefusesABrokenBagAndAStrangersTopics) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  ASSERT_EQ(run_program(folder, "convert a.rawlog b.bag --quiet").exit_code, 0);
+  const std::string bag = text_of(folder / "b.bag");
+  folder.write("cut.bag", bag.substr(0, bag.size() / 2));
+  folder.write("d.topics.toml", "[topics]\n");
+  expect_refused(folder, "convert cut.bag c.rawlog", {"cut.bag: byte 13: ", "index at byte"});
+  expect_refused(folder, "convert a.rawlog d.bag", {"d.topics.toml", "topics of the new bag"});
+}
+
 TEST(Convert, RefusesToMakeOneKindOfFileFromAnother) {
   const ScratchFolder folder;
   folder.write("a.tum", kTum);

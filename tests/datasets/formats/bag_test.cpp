@@ -12,6 +12,7 @@
 #include "datasets/formats/log_io.hpp"
 #include "tests/datasets/formats/bag_support.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -273,6 +274,36 @@ TEST(Bag, SaysWhatItCannotHold) {
   ASSERT_FALSE(written.has_value());
   EXPECT_NE(written.error().to_line().find("ROS time"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.bag"));
+}
+
+TEST(Bag, ARecordedLogKeepsItsStampsRangesAndOdometry) {
+  const auto file = testing::recorded_file("recorded/fr079.clf.gz");
+  if (!file) GTEST_SKIP() << testing::missing_data_message("recorded/fr079.clf.gz");
+  ReadLogOptions options;
+  options.no_return_range_m = 81.0;
+  const auto log = read_log(*file, options);
+  ASSERT_TRUE(log.has_value()) << log.error().to_line();
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_rosbag(*log, folder / "fr079.bag"));
+  ReadLogOptions as_calibrated;
+  as_calibrated.robot = log->robot;
+  auto read = read_log(folder / "fr079.bag", as_calibrated);
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  ASSERT_EQ(read->events.size(), log->events.size());
+  round_angles(*log, *read);
+  // Angles of beams are 32-bit floats in a bag; everything else is exact.
+  constexpr double kFloatRounding_rad = 1e-6;
+  for (std::size_t i = 0; i < read->events.size(); ++i) {
+    auto* scan = std::get_if<LaserScan>(&read->events[i]);
+    const auto* original = std::get_if<LaserScan>(&log->events[i]);
+    if (scan == nullptr || original == nullptr) continue;
+    ASSERT_NEAR(scan->angle_min_rad, original->angle_min_rad, kFloatRounding_rad);
+    ASSERT_NEAR(scan->angle_rad(scan->num_beams()), original->angle_rad(scan->num_beams()),
+                kFloatRounding_rad * static_cast<double>(scan->num_beams()));
+    scan->angle_min_rad = original->angle_min_rad;
+    scan->angle_increment_rad = original->angle_increment_rad;
+  }
+  EXPECT_TRUE(test::same_events(*read, *log));
 }
 
 TEST(BagTopics, ListsEveryViolation) {
