@@ -5,6 +5,7 @@
 #include <map>
 
 #include "datasets/formats/bag_chunk.hpp"
+#include "datasets/formats/bag_entries.hpp"
 #include "datasets/formats/bag_layouts.hpp"
 #include "datasets/formats/bag_records.hpp"
 #include "datasets/formats/file_bytes.hpp"
@@ -21,9 +22,6 @@ constexpr std::uint8_t kOpIndex = 0x04;
 constexpr std::uint8_t kOpChunk = 0x05;
 constexpr std::uint8_t kOpChunkInfo = 0x06;
 constexpr std::uint8_t kOpConnection = 0x07;
-constexpr std::uint32_t kVersion = 1;            // of index records and chunk infos
-constexpr std::size_t kIndexEntryBytes = 12;     // u32 s, u32 ns, u32 offset in the chunk
-constexpr std::size_t kChunkInfoEntryBytes = 8;  // u32 connection, u32 count
 constexpr std::size_t kMaxConnections = 4096;
 
 struct Connection {
@@ -32,9 +30,6 @@ struct Connection {
   std::size_t num_messages = 0;
   bool is_listed = false;  // behind the chunks, too
 };
-
-// A chunk's messages: per connection, the time at each offset.
-using ChunkMessages = std::map<std::uint32_t, std::map<std::uint32_t, std::int64_t>>;
 
 class BagFraming {
  public:
@@ -60,7 +55,7 @@ class BagFraming {
  private:
   struct Chunk {
     bool has_info = false;
-    std::map<std::uint32_t, std::uint32_t> counts;  // messages per connection
+    MessageCounts counts;
   };
 
   Result<void> take_magic() {
@@ -237,7 +232,7 @@ class BagFraming {
       offset_ = record->end;
       const auto id = u32_field(record->fields, "conn", record->where);
       if (!id) return tl::make_unexpected(id.error());
-      const auto num_entries = take_entry_count(*record, kIndexEntryBytes);
+      const auto num_entries = entry_count(*record, kIndexEntryBytes);
       if (!num_entries) return tl::make_unexpected(num_entries.error());
       const auto of_connection = missing.find(*id);
       if (of_connection == missing.end() || of_connection->second.size() != *num_entries) {
@@ -247,50 +242,11 @@ class BagFraming {
             fmt::format("{}", of_connection == missing.end() ? std::size_t{0}
                                                              : of_connection->second.size()));
       }
-      auto matched = match_entries(*record, of_connection->second);
+      auto matched = match_index_entries(*record, file_, of_connection->second);
       if (!matched) return matched;
       missing.erase(of_connection);
     }
     return {};
-  }
-
-  // Each entry takes its message away, so that none is named twice.
-  Result<void> match_entries(const BagRecord& record,
-                             std::map<std::uint32_t, std::int64_t>& messages) const {
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
-    for (std::size_t at = 0; at < record.data.size(); at += kIndexEntryBytes) {
-      const std::int64_t time_ns =
-          u32_at(record.data, at) * kSecond_ns + u32_at(record.data, at + 4);
-      const std::uint32_t offset = u32_at(record.data, at + 8);
-      const auto message = messages.find(offset);
-      if (message == messages.end() || message->second != time_ns) {
-        return fail(ErrorCode::kInvalid,
-                    fmt::format("index entry for byte {} of the chunk, {} ns", offset, time_ns),
-                    file_.at(record.data_begin + at),
-                    message == messages.end() ? "the byte of a message of its connection"
-                                              : fmt::format("{} ns", message->second));
-      }
-      messages.erase(message);
-    }
-    return {};
-  }
-
-  // The field `count`, which must fit the data.
-  Result<std::size_t> take_entry_count(const BagRecord& record, std::size_t entry_bytes) const {
-    const auto version = u32_field(record.fields, "ver", record.where);
-    if (!version) return tl::make_unexpected(version.error());
-    if (*version != kVersion) {
-      return fail(ErrorCode::kUnsupported, fmt::format("record of version {}", *version),
-                  record.where, fmt::format("{}", kVersion));
-    }
-    const auto count = u32_field(record.fields, "count", record.where);
-    if (!count) return tl::make_unexpected(count.error());
-    if (*count * entry_bytes != record.data.size()) {
-      return fail(ErrorCode::kMalformed,
-                  fmt::format("{} entries in {} bytes", *count, record.data.size()), record.where,
-                  fmt::format("{} bytes", *count * entry_bytes));
-    }
-    return *count;
   }
 
   Result<void> take_connections() {
@@ -330,26 +286,15 @@ class BagFraming {
       const auto time_ns = time_field(record.fields, name, record.where);
       if (!time_ns) return tl::make_unexpected(time_ns.error());
     }
-    const auto num_entries = take_entry_count(record, kChunkInfoEntryBytes);
+    const auto num_entries = entry_count(record, kChunkInfoEntryBytes);
     if (!num_entries) return tl::make_unexpected(num_entries.error());
     const auto chunk = chunks_.find(*position);
     if (chunk != chunks_.end() && !chunk->second.has_info) {
       chunk->second.has_info = true;
-      return match_counts(record, chunk->second.counts);
+      return match_chunk_counts(record, chunk->second.counts);
     }
     return fail(ErrorCode::kInvalid, fmt::format("info on a chunk at byte {}", *position),
                 record.where, "the byte of a chunk, each once");
-  }
-
-  Result<void> match_counts(const BagRecord& record,
-                            const std::map<std::uint32_t, std::uint32_t>& counts) const {
-    std::map<std::uint32_t, std::uint32_t> stated;
-    for (std::size_t at = 0; at < record.data.size(); at += kChunkInfoEntryBytes) {
-      stated[u32_at(record.data, at)] += u32_at(record.data, at + 4);
-    }
-    if (stated == counts && record.data.size() == counts.size() * kChunkInfoEntryBytes) return {};
-    return fail(ErrorCode::kInvalid, "a chunk's info counts other messages than the chunk has",
-                record.where, fmt::format("those of {} connections", counts.size()));
   }
 
   BagBytes file_;

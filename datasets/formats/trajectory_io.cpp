@@ -38,12 +38,6 @@ Result<ReadTrajectory> read_kitti(const std::string& poses, const std::filesyste
   return parse_kitti(poses, path.string(), *times, times_path.string());
 }
 
-Result<ReadTrajectory> read_tum_text(const std::string& text, const std::filesystem::path& path) {
-  auto trajectory = parse_tum(text, path.string());
-  if (!trajectory) return tl::make_unexpected(trajectory.error());
-  return ReadTrajectory{std::move(*trajectory), {}};
-}
-
 std::string text_of(const Trajectory& trajectory, TrajectoryFormat format) {
   switch (format) {
     case TrajectoryFormat::kTum:
@@ -82,7 +76,7 @@ Result<ReadTrajectory> read_trajectory(const std::filesystem::path& path) {
   if (!format) return unknown_suffix(path);
   const auto text = read_file_bytes(path);
   if (!text) return tl::make_unexpected(text.error());
-  auto read = *format == TrajectoryFormat::kTum     ? read_tum_text(*text, path)
+  auto read = *format == TrajectoryFormat::kTum     ? parse_tum_trajectory(*text, path.string())
               : *format == TrajectoryFormat::kKitti ? read_kitti(*text, path)
               : *format == TrajectoryFormat::kEuroc ? parse_euroc(*text, path.string())
                                                     : parse_carmen_trajectory(*text, path.string());

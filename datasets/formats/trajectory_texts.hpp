@@ -12,6 +12,8 @@ namespace corridor::formats {
 
 // `name` stands for the file in messages. Lines that start with '#' and empty lines are skipped.
 
+Result<ReadTrajectory> parse_tum_trajectory(std::string_view text, const std::string& name);
+
 // `times` has one stamp in seconds a line, as many as `poses` has matrices.
 Result<ReadTrajectory> parse_kitti(std::string_view poses, const std::string& name,
                                    std::string_view times, const std::string& times_name);

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/text.hpp"
 #include "datasets/formats/trajectory_rules.hpp"
+#include "datasets/formats/trajectory_texts.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -17,12 +19,13 @@ namespace {
 constexpr std::size_t kNumFields = 8;
 constexpr const char* kLayout = "'stamp x y z qx qy qz qw'";
 
-struct PlanarPose {
+struct SpatialPose {
   Timestamp stamp;
   Pose2 T_map_base;
+  double z_m = 0;
 };
 
-Result<PlanarPose> parse_pose(std::string_view line, const std::string& where) {
+Result<SpatialPose> parse_pose(std::string_view line, const std::string& where) {
   const auto fields = split_fields(line);
   if (fields.size() != kNumFields) {
     return fail(ErrorCode::kMalformed, fmt::format("{} fields", fields.size()), where,
@@ -39,13 +42,14 @@ Result<PlanarPose> parse_pose(std::string_view line, const std::string& where) {
   const auto [x_m, y_m, z_m, qx, qy, qz, qw] = numbers;
   const auto yaw_rad = yaw_of_quaternion(qx, qy, qz, qw, where);
   if (!yaw_rad) return tl::make_unexpected(yaw_rad.error());
-  return PlanarPose{*stamp, Pose2(x_m, y_m, *yaw_rad)};
+  return SpatialPose{*stamp, Pose2(x_m, y_m, *yaw_rad), z_m};
 }
 
 }  // namespace
 
-Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
-  Trajectory trajectory;
+Result<ReadTrajectory> parse_tum_trajectory(std::string_view text, const std::string& name) {
+  ReadTrajectory read;
+  std::size_t num_raised = 0;
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {
     const std::string where = fmt::format("{}:{}", name, ++line_number);
@@ -54,13 +58,21 @@ Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
     if (first.empty() || first.front() == '#') continue;
     const auto pose = parse_pose(*line, where);
     if (!pose) return tl::make_unexpected(pose.error());
-    auto appended = append_pose(trajectory, pose->stamp, pose->T_map_base, first, where);
+    auto appended = append_pose(read.trajectory, pose->stamp, pose->T_map_base, first, where);
     if (!appended) return tl::make_unexpected(appended.error());
+    if (pose->z_m != 0) ++num_raised;
   }
-  if (auto good = check_stamp_unit(trajectory, name, "seconds"); !good) {
+  if (num_raised > 0) read.notes.push_back(fmt::format("{} heights left out", num_raised));
+  if (auto good = check_stamp_unit(read.trajectory, name, "seconds"); !good) {
     return tl::make_unexpected(good.error());
   }
-  return trajectory;
+  return read;
+}
+
+Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
+  auto read = parse_tum_trajectory(text, name);
+  if (!read) return tl::make_unexpected(read.error());
+  return std::move(read->trajectory);
 }
 
 Result<Trajectory> read_tum(const std::filesystem::path& path) {

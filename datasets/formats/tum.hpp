@@ -1,6 +1,7 @@
 // Trajectories as TUM text: "stamp x y z qx qy qz qw", one pose a line [Sturm2012].
 // Stamps have 9 decimals (exact to the nanosecond), the rest as many digits as give back the same
-// double. Planar only: roll and pitch other than zero are refused, z is ignored.
+// double. Planar only: roll and pitch other than zero are refused, z is left out (trajectory_io.hpp
+// counts it).
 #pragma once
 
 #include <filesystem>

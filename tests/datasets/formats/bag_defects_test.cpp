@@ -171,9 +171,10 @@ TEST(BagFraming, RefusesCountsThatAreNotTheFiles) {
   expect_framing_refused(with_field<std::uint32_t>(bytes, "conn_count=", 4), "record of kind 6");
   expect_framing_refused(with_field<std::uint64_t>(bytes, "chunk_pos=", 4118),
                          "info on a chunk at byte 4118");
+  // The last number of the file counts messages of the last chunk.
   std::string wrong = bytes;
-  wrong.back() = static_cast<char>(wrong.back() + 1);
-  expect_framing_refused(wrong, "expected");
+  wrong[wrong.size() - 4] = static_cast<char>(wrong[wrong.size() - 4] + 1);
+  expect_framing_refused(wrong, "counts other messages than the chunk has");
   expect_framing_refused(bytes + "x", "something follows the last record");
 }
 

@@ -136,6 +136,20 @@ TEST(Bag, CountsTheHeadersStampAndMergesTopicsByIt) {
   EXPECT_TRUE(test::same_events(*late, *read_log(folder / "a.bag")));
 }
 
+TEST(Bag, KeepsTheOrderOfRecordingOnRequest) {
+  auto messages = small_bag();
+  messages[3].stamp_ns -= 50'000'000;
+  const ScratchFolder folder;
+  write_bag(folder / "a.bag", messages);
+  ASSERT_FALSE(read_log(folder / "a.bag").has_value());
+  ReadLogOptions options;
+  options.order = StampOrder::kFile;
+  const auto read = read_log(folder / "a.bag", options);
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->events.size(), messages.size());
+  EXPECT_NE(notes_of(*read).find("rows' stamps moved"), std::string::npos);
+}
+
 TEST(Bag, TakesTheSensorsLimitsFromItsScans) {
   auto messages = small_bag();
   for (ros1::Message& message : messages) {

@@ -95,6 +95,12 @@ TEST(TrajectoryFormats, KittisMatrixTurnsAsThePoseDoes) {
   EXPECT_EQ(read->notes, std::vector<std::string>{"1 heights left out"});
 }
 
+TEST(TrajectoryFormats, HeightsOfATumFileAreCounted) {
+  const auto read = parse_tum_trajectory("1 2 3 4 0 0 0 1\n2 2 3 0 0 0 0 1\n", "t.tum");
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->notes, std::vector<std::string>{"1 heights left out"});
+}
+
 TEST(TrajectoryFormats, EurocsGroundTruthLosesItsVelocitiesWithANote) {
   const auto read = parse_euroc(
       "#timestamp, p_RS_R_x [m]\n1403636580838555648,4.5,-1.5,0.5,1,0,0,0,0,0,0,0,0,0,0,0,0\n",
