@@ -61,7 +61,7 @@ class TopicChooser {
       (connection.type == type_name ? of_type : of_other_types).insert(connection.topic);
     }
     if (wanted) {
-      if (of_type.count(*wanted) != 0 && of_other_types.count(*wanted) == 0) return *wanted;
+      if (of_type.contains(*wanted) && !of_other_types.contains(*wanted)) return *wanted;
       refuse(ErrorCode::kNotFound,
              fmt::format("topic {} is not in the bag as {}", quote(*wanted), type_name),
              names_of(of_type));
@@ -112,7 +112,7 @@ struct PlacedEvent {
 using Streams = std::map<std::string, std::vector<PlacedEvent>>;
 
 // Takes the head with the smallest key until no stream has any. Streams keep their own order.
-void merge(Streams streams, bool by_record_time, ParsedLog& log) {
+void merge(Streams& streams, bool by_record_time, ParsedLog& log) {
   std::map<std::string, std::size_t> heads;
   const auto key_of = [&](const PlacedEvent& placed) {
     return by_record_time ? placed.record_ns : stamp_of(placed.event).nanoseconds;
@@ -134,6 +134,43 @@ void merge(Streams streams, bool by_record_time, ParsedLog& log) {
   }
 }
 
+// The events of each topic with their bytes: rosbag's messages are those of the framing, in order.
+Result<Streams> read_streams(const BagIndex& index, const std::vector<ros1::Message>& messages,
+                             const std::vector<std::string>& used, const std::string& file,
+                             BagMessageReader& reader) {
+  auto framed = messages_by_topic(index);
+  std::map<std::string, std::size_t> num_taken;
+  Streams streams;
+  for (const ros1::Message& message : messages) {
+    const auto& of_topic = framed[message.topic];
+    std::size_t& taken = num_taken[message.topic];
+    if (taken >= of_topic.size() || of_topic[taken].record_ns != message.record_ns) {
+      return fail(ErrorCode::kInternal, "rosbag gives other messages than the file holds", file,
+                  "the messages of its chunks");
+    }
+    const std::uint64_t origin = of_topic[taken++].origin;
+    auto event = reader.take(message, fmt::format("{}: byte {}", file, origin));
+    if (!event) return tl::make_unexpected(event.error());
+    if (!*event) continue;
+    streams[message.topic].push_back({std::move(**event), origin, message.record_ns});
+  }
+  for (const std::string& topic : used) {
+    if (num_taken[topic] == framed[topic].size()) continue;
+    return fail(ErrorCode::kInternal, "rosbag gives fewer messages than the file holds", file,
+                fmt::format("{} of {}", framed[topic].size(), quote(topic)));
+  }
+  return streams;
+}
+
+void count_left_out(const BagIndex& index, const std::vector<std::string>& used, ParsedLog& log) {
+  for (const BagConnection& connection : index.connections) {
+    if (std::find(used.begin(), used.end(), connection.topic) != used.end()) continue;
+    if (connection.num_messages == 0) continue;
+    log.counts[fmt::format("messages of {} ({}) left out", quote(connection.topic),
+                           quote(connection.type))] += connection.num_messages;
+  }
+}
+
 }  // namespace
 
 Result<ParsedLog> parse_bag(std::string_view bytes, const std::filesystem::path& path,
@@ -151,33 +188,10 @@ Result<ParsedLog> parse_bag(std::string_view bytes, const std::filesystem::path&
   log.scans_state_pose = false;
   log.has_wheel_ticks_only = options.topics.joints.has_value();
   BagMessageReader reader(options.topics.joints, log);
-  const auto framed = messages_by_topic(*index);
-  std::map<std::string, std::size_t> num_taken;
-  Streams streams;
-  for (const ros1::Message& message : *messages) {
-    const auto& of_topic = framed.at(message.topic);
-    std::size_t& taken = num_taken[message.topic];
-    if (taken == of_topic.size() || of_topic[taken].record_ns != message.record_ns) {
-      return fail(ErrorCode::kInternal, "rosbag gives other messages than the file holds", file,
-                  "the messages of its chunks");
-    }
-    const std::uint64_t origin = of_topic[taken++].origin;
-    auto event = reader.take(message, fmt::format("{}: byte {}", file, origin));
-    if (!event) return tl::make_unexpected(event.error());
-    if (!*event) continue;
-    streams[message.topic].push_back({std::move(**event), origin, message.record_ns});
-  }
-  for (const BagConnection& connection : index->connections) {
-    const auto used = topics->used();
-    if (std::find(used.begin(), used.end(), connection.topic) == used.end()) {
-      log.counts[fmt::format("messages of {} ({}) left out", quote(connection.topic),
-                             quote(connection.type))] += connection.num_messages;
-    } else if (num_taken[connection.topic] != framed.at(connection.topic).size()) {
-      return fail(ErrorCode::kInternal, "rosbag gives fewer messages than the file holds", file,
-                  "the messages of its chunks");
-    }
-  }
-  merge(std::move(streams), options.keeps_record_order, log);
+  auto streams = read_streams(*index, *messages, topics->used(), file, reader);
+  if (!streams) return tl::make_unexpected(streams.error());
+  count_left_out(*index, topics->used(), log);
+  merge(*streams, options.keeps_record_order, log);
   return log;
 }
 
