@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 
 #include "datasets/formats/g2o_file.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
@@ -226,6 +227,11 @@ struct GraphCounts {
   std::size_t num_edges;
   std::size_t num_repeated_pairs;
 };
+
+// For the tests' names.
+std::ostream& operator<<(std::ostream& stream, const GraphCounts& counts) {
+  return stream << counts.file;
+}
 
 class PublishedGraphs : public ::testing::TestWithParam<GraphCounts> {};
 
