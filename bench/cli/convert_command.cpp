@@ -1,117 +1,64 @@
 #include "bench/cli/convert_command.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <filesystem>
 #include <system_error>
-#include <vector>
 
-#include "bench/cli/staged_files.hpp"
-#include "bench/runner/case_data.hpp"
-#include "bench/runner/exit_code.hpp"
+#include "bench/cli/conversions.hpp"
 #include "datasets/formats/log_io.hpp"
+#include "datasets/formats/pose_graph_file.hpp"
+#include "datasets/formats/trajectory_io.hpp"
 
 namespace corridor::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A file beside a log that says more about it.
-struct Companion {
-  fs::path source;
-  fs::path target;
-  bool is_brought = false;  // IN has it
-};
+bool is_graph(const fs::path& path) { return formats::graph_format_from_suffix(path).has_value(); }
 
-std::vector<Companion> companions_of(const catalog::LoadedDataset& in, const fs::path& out) {
-  const fs::path log = in.log.provenance.source;
-  const auto companion = [&](const char* suffix, bool is_brought) {
-    return Companion{formats::sidecar_of(log, suffix), formats::sidecar_of(out, suffix),
-                     is_brought};
-  };
-  return {companion(".tum", in.log.truth.has_value()),
-          companion(".truth.toml", in.world_file.has_value()),
-          companion(".relations", in.relations.has_value())};
+// CARMEN files are logs that hold a trajectory too; which is meant, the other side says.
+bool is_trajectory_only(const fs::path& path) {
+  return formats::trajectory_format_from_suffix(path) && !formats::format_from_suffix(path);
 }
 
-bool is_same_file(const fs::path& a, const fs::path& b) {
+bool is_carmen(const fs::path& path) {
+  return formats::trajectory_format_from_suffix(path) == formats::TrajectoryFormat::kCarmen;
+}
+
+Result<void> check_names(const fs::path& in, const fs::path& out) {
   std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
-}
-
-// The log that is read is not replaced, nor does the new one get another log's truth.
-Result<void> check_convert(const catalog::LoadedDataset& in, const fs::path& out) {
-  if (is_same_file(in.log.provenance.source, out)) {
-    return fail(ErrorCode::kInvalid, "this is the log that is read", out.string(), "another name");
+  if (fs::equivalent(in, out, ignored)) {
+    return fail(ErrorCode::kInvalid, "this is the file that is read", out.string(), "another name");
   }
-  for (const Companion& file : companions_of(in, out)) {
-    if (const Result<void> good = check_targets({file.target}); !good) return good;
-    if (file.is_brought || !fs::exists(file.target)) continue;
-    return fail(ErrorCode::kInvalid, "this file would pass for one of the new log",
-                file.target.string(), "another name for the log, or that file removed");
-  }
-  return check_targets({out});
-}
-
-// OUT with what belongs to IN's log beside it; all or nothing.
-Result<void> write_all(const catalog::LoadedDataset& in, const fs::path& out) {
-  Result<StagedFiles> staged = StagedFiles::beside(out);
-  if (!staged) return tl::make_unexpected(staged.error());
-  const Result<void> written = formats::write_log(in.log, staged->path_for(out));
-  if (!written) return tl::make_unexpected(staged->with_final_name(written.error()));
-  for (const Companion& file : companions_of(in, out)) {
-    const fs::path hidden = staged->path_for(file.target);
-    std::error_code error;
-    // A log converted within its folder keeps its companions untouched.
-    const bool is_there = is_same_file(file.source, file.target);
-    if (is_there) fs::remove(hidden, error);
-    if (is_there || !file.is_brought || fs::exists(hidden, error)) continue;
-    fs::copy_file(file.source, hidden, error);
-    if (!error) continue;
-    return fail(ErrorCode::kUnreadable, "cannot be copied: " + error.message(),
-                file.source.string());
-  }
-  return staged->commit();
+  return check_parent_folder(out);
 }
 
 }  // namespace
 
 void ConvertCommand::add_to(CLI::App& command) {
-  command.add_option("in", in, "Log, or name of a data set")->required()->type_name("IN");
+  command.add_option("in", in, "Log, name of a data set, trajectory or pose graph")
+      ->required()
+      ->type_name("IN");
   command
-      .add_option("out", out, "Log to write: .rawlog, .clf, .clf.gz; truth and world go beside it")
+      .add_option("out", out,
+                  "Log (.rawlog .clf .clf.gz .bag; truth and world go beside it), trajectory (.tum "
+                  ".kitti .csv .clf) or pose graph (.g2o .graph)")
       ->required()
       ->type_name("OUT");
   common.add_to(command);
 }
 
 Result<ExitCode> ConvertCommand::run() const {
-  const auto target = formats::format_from_suffix(out);
-  if (!target || !formats::is_writable(*target)) {
-    return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written", out,
-                ".rawlog, .clf or .clf.gz");
-  }
-  if (const Result<void> folder = check_parent_folder(out); !folder) {
-    return tl::make_unexpected(folder.error());
-  }
-  const Result<catalog::LoadedDataset> loaded = runner::load_dataset(in, common.data_dirs());
-  if (!loaded) return tl::make_unexpected(loaded.error());
-  if (const Result<void> good = check_convert(*loaded, out); !good) {
+  if (const Result<void> good = check_names(in, out); !good) {
     return tl::make_unexpected(good.error());
   }
-  if (const Result<void> written = write_all(*loaded, out); !written) {
-    return tl::make_unexpected(written.error());
-  }
-  const std::vector<std::string> losses = formats::losses_of_conversion(loaded->log, *target);
-  for (const std::string& loss : losses) common.say(fmt::format("lost: {}", loss));
-  common.say(fmt::format("{}: {} scans, {} wheel samples, {} inertial samples{}", out,
-                         loaded->log.num_scans(), loaded->log.num_wheel_samples(),
-                         loaded->log.num_imu_samples(), losses.empty() ? ", nothing lost" : ""));
-  return runner::kExitDone;
+  if (is_graph(in)) return convert_graph(in, out, common);
+  const bool takes_poses = is_carmen(in) && is_trajectory_only(out);
+  if (is_trajectory_only(in) || takes_poses) return convert_trajectory(in, out, common);
+  return convert_log(in, out, common);
 }
 
 }  // namespace corridor::cli

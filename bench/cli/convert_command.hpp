@@ -1,4 +1,5 @@
-// corridor-bench convert IN OUT: between log formats, saying what the target cannot hold.
+// corridor-bench convert IN OUT: between log formats, between trajectory formats, between graph
+// formats, saying what the target cannot hold.
 #pragma once
 
 #include <string>

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "datasets/catalog/find_folder.hpp"
@@ -52,7 +54,9 @@ std::string_view to_text(FileStatus status) {
 }
 
 bool CatalogEntry::is_readable() const {
-  return format == "carmen" || format == "rawlog" || format == "lcm" || format == "ticks";
+  constexpr std::array<std::string_view, 5> kReadable = {"carmen", "rawlog", "lcm", "ticks",
+                                                         "rosbag"};
+  return std::find(kReadable.begin(), kReadable.end(), format) != kReadable.end();
 }
 
 const CatalogEntry* Catalog::find(std::string_view name) const {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/formats/bag_topics.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "datasets/formats/relations.hpp"
 #include "slam/core/result.hpp"
@@ -37,7 +38,7 @@ struct DataFile {
 struct CatalogEntry {
   std::string name;
   std::string title;
-  std::string format;           // "rawlog", "carmen", "lcm", "ticks"; others are not readable
+  std::string format;  // "rawlog", "carmen", "lcm", "ticks", "rosbag"; others are listed only
   std::vector<DataFile> files;  // the first is the log
   TruthKind truth = TruthKind::kNone;
   std::string licence;  // as its publisher states it
@@ -47,6 +48,7 @@ struct CatalogEntry {
   std::optional<double> cut_after_s;
   std::optional<RobotModel> robot;  // calibration for logs that carry none
   formats::RawSensors raw;
+  std::optional<formats::BagTopics> topics;  // of a ROS bag
 
   [[nodiscard]] bool is_readable() const;
 };

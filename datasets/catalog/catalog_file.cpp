@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "datasets/catalog/catalog.hpp"
+#include "datasets/formats/bag_topics.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/robot_toml.hpp"
 
@@ -15,11 +16,10 @@ namespace corridor::catalog {
 namespace {
 
 constexpr std::size_t kSha256Digits = 64;
-constexpr std::array<std::string_view, 11> kKeys = {
-    "name",        "title",      "format",
-    "files",       "truth",      "order",
-    "licence",     "source",     "no_return_range_m",
-    "cut_after_s", "calibration"};
+constexpr std::array<std::string_view, 13> kKeys = {
+    "name",        "title",       "format",           "files",  "truth",
+    "order",       "licence",     "source",           "topics", "joints",
+    "cut_after_s", "calibration", "no_return_range_m"};
 
 class EntryReader {
  public:
@@ -42,6 +42,7 @@ class EntryReader {
     entry_.no_return_range_m = positive_number("no_return_range_m");
     entry_.cut_after_s = positive_number("cut_after_s");
     take_calibration();
+    take_topics();
     return std::move(entry_);
   }
 
@@ -127,6 +128,28 @@ class EntryReader {
     } else {
       entry_.robot = std::move(stated->robot);
       entry_.raw = stated->raw;
+    }
+  }
+
+  // The tables [topics] and [joints] of LOG.topics.toml, as keys of the entry.
+  void take_topics() {
+    toml::table stated;
+    for (const char* key : {"topics", "joints"}) {
+      if (const toml::node* node = table_.get(key)) stated.insert(key, *node);
+    }
+    if (stated.empty()) return;
+    if (entry_.format != "rosbag") {
+      complain("topics", "only a rosbag has topics");
+      return;
+    }
+    std::ostringstream toml_text;
+    toml_text << toml::default_formatter(stated);
+    auto topics = formats::bag_topics_from_toml(
+        toml_text.str(), fmt::format("{}: topics of {}", where_, entry_.name));
+    if (!topics) {
+      wrong_.push_back(topics.error().to_line());
+    } else {
+      entry_.topics = std::move(*topics);
     }
   }
 

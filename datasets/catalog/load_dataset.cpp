@@ -110,7 +110,7 @@ Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs
     return fail(ErrorCode::kUnsupported,
                 fmt::format("data set {}: format {} is not readable by this version", entry.name,
                             entry.format),
-                "catalogue", "carmen, rawlog, lcm or ticks");
+                "catalogue", "carmen, rawlog, lcm, ticks or rosbag");
   }
   const auto folder = find_folder(entry, dirs);
   if (!folder) {
@@ -127,6 +127,7 @@ Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs
   read.robot = entry.robot;
   read.raw = entry.raw;
   read.cut_after_s = entry.cut_after_s;
+  read.topics = entry.topics;
   auto loaded = load_file(*folder / entry.files.front().path, read);
   if (!loaded) return loaded;
   loaded->name = loaded->log.provenance.name = entry.name;

@@ -95,6 +95,17 @@ void reconcile_range_max(ParsedLog& log, const RobotOverride& model, RobotModel&
   robot.lidar.range_max_m = scans_m;
 }
 
+// A number the log states of its scans goes before the model's, with a note where both speak.
+void reconcile_number(const std::optional<double>& log_value, bool model_states, const char* what,
+                      double& model_value, std::vector<std::string>& notes) {
+  if (!log_value || std::abs(*log_value - model_value) <= kSameRange_ratio * model_value) return;
+  if (model_states) {
+    notes.push_back(fmt::format("the robot model's {} is {}, the scans' {}: the scans' is used",
+                                what, model_value, *log_value));
+  }
+  model_value = *log_value;
+}
+
 // A sidecar may shorten the sensor's reach: longer beams become beams without return.
 void apply_sidecar_range(ParsedLog& log, double range_max_m, std::vector<std::string>& notes) {
   std::size_t num_cut = 0;
@@ -146,6 +157,10 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
   if (first_scan(log) != nullptr) {
     reconcile_lidar_pose(log, *model, log.scans_state_pose, robot, notes);
     reconcile_range_max(log, *model, robot, notes);
+    reconcile_number(log.range_min_m, model->states_range_min, "minimum range [m]",
+                     robot.lidar.range_min_m, notes);
+    reconcile_number(log.scan_duration_s, model->states_scan_duration, "scan duration [s]",
+                     robot.lidar.scan_duration_s, notes);
   }
   if (log.T_base_imu) {
     if (model->states_imu_pose && !is_same_pose(*log.T_base_imu, robot.imu.T_base_imu)) {

@@ -7,6 +7,8 @@
 // Other messages of the CARMEN vocabulary are skipped and counted; anything else is an error.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +17,17 @@
 #include "slam/core/result.hpp"
 
 namespace corridor::formats {
+
+// Messages that a CARMEN log may hold and that say nothing the suite uses.
+inline constexpr std::array<std::string_view, 18> kSkippedCarmenMessages = {
+    "PARAM",     "SYNC",      "RLASER",    "LASER3",    "LASER4",    "ROBOTLASER2",
+    "RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5", "TRUEPOS",
+    "NMEAGGA",   "NMEARMC",   "SONAR",     "SONARPOS",  "BUMPER",    "GPGGA"};
+
+inline bool is_skipped_carmen_message(std::string_view name) {
+  return std::find(kSkippedCarmenMessages.begin(), kSkippedCarmenMessages.end(), name) !=
+         kSkippedCarmenMessages.end();
+}
 
 struct CarmenOptions {
   // No return at or beyond this range. Without it ROBOTLASER1 lines use their own max_range.

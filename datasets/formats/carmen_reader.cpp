@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,12 +13,6 @@ constexpr double kHalfTurn_rad = std::numbers::pi;
 // Added to a sensor's limit where a log has an infinite range: finite, and beyond the limit.
 constexpr float kBeyondLimit_m = 1.0F;
 constexpr std::size_t kMaxRemissions = kMaxBeams;
-
-// Messages that a CARMEN log may hold and that say nothing the suite uses.
-constexpr std::array<std::string_view, 18> kSkippedMessages = {
-    "PARAM",     "SYNC",      "RLASER",    "LASER3",    "LASER4",    "ROBOTLASER2",
-    "RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5", "TRUEPOS",
-    "NMEAGGA",   "NMEARMC",   "SONAR",     "SONARPOS",  "BUMPER",    "GPGGA"};
 
 // Takes fields off one line; the first thing wrong is kept and all later answers mean nothing.
 class LineReader {
@@ -110,8 +102,7 @@ class CarmenParser {
       take_robotlaser(reader);
     } else if (message == "ODOM") {
       take_odom(reader);
-    } else if (std::find(kSkippedMessages.begin(), kSkippedMessages.end(), message) !=
-               kSkippedMessages.end()) {
+    } else if (is_skipped_carmen_message(message)) {
       ++log_.counts[fmt::format("{} lines skipped", message)];
     } else {
       reader.refuse("message", message, "a CARMEN message such as FLASER, ROBOTLASER1 or ODOM");

@@ -74,6 +74,31 @@ class LossFinder {
     return std::move(lines_);
   }
 
+  std::vector<std::string> of_rosbag() {
+    std::size_t num_ticks = 0;
+    std::size_t num_raw_ranges = 0;
+    std::size_t num_near = 0;
+    for (const SensorEvent& event : log_.events) {
+      const auto* sample = std::get_if<WheelSample>(&event);
+      if (sample != nullptr && sample->ticks) ++num_ticks;
+      const auto* scan = std::get_if<LaserScan>(&event);
+      if (scan == nullptr) continue;
+      for (std::size_t i = 0; i < scan->num_beams(); ++i) {
+        const double range_m = scan->ranges_m[i];
+        const bool looks_valid =
+            range_m > 0 && range_m >= scan->range_min_m && range_m <= scan->range_max_m;
+        if (scan->is_valid[i] == 0 && looks_valid) ++num_raw_ranges;
+        if (scan->is_valid[i] != 0 && !looks_valid) ++num_near;
+      }
+    }
+    note(num_ticks, "wheel samples lose their encoder ticks");
+    note(num_raw_ranges, "beams without return lose their raw range");
+    note(num_near, "beams below the minimum range become beams without return");
+    if (log_.num_scans() > 0) lines_.push_back("scan angles are rounded to 32-bit floats");
+    lines_.push_back("the robot model is left out, with the places of LiDAR and IMU");
+    return std::move(lines_);
+  }
+
  private:
   void note(std::size_t count, const std::string& what) {
     if (count > 0) lines_.push_back(fmt::format("{} {}", count, what));
@@ -95,9 +120,18 @@ class LossFinder {
 
 std::vector<std::string> losses_of_conversion(const SensorLog& log, LogFormat target) {
   LossFinder finder(log);
-  if (target == LogFormat::kRawlog) return finder.of_rawlog();
-  if (target == LogFormat::kCarmen) return finder.of_carmen();
-  return {};  // nothing is written in that format
+  switch (target) {
+    case LogFormat::kRawlog:
+      return finder.of_rawlog();
+    case LogFormat::kCarmen:
+      return finder.of_carmen();
+    case LogFormat::kRosbag:
+      return finder.of_rosbag();
+    case LogFormat::kLcm:
+    case LogFormat::kTicks:
+      return {};  // nothing is written in these formats
+  }
+  return {};
 }
 
 }  // namespace corridor::formats

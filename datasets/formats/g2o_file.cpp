@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/formats/atomic_file.hpp"
+#include "datasets/formats/pose_graph_file.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
 
 namespace corridor::formats {
@@ -19,30 +20,6 @@ std::vector<std::uint32_t> poses_of(const graph::Values& values) {
     if (key.kind == graph::VariableKind::kPose) indices.push_back(key.index);
   }
   return indices;
-}
-
-std::string vertex_lines(const std::vector<std::uint32_t>& poses, const graph::Values& values) {
-  std::string lines;
-  for (const std::uint32_t index : poses) {
-    const Pose2& T_map_base = values.pose(index);
-    lines += fmt::format("VERTEX_SE2 {} {} {} {}\n", index, T_map_base.x_m(), T_map_base.y_m(),
-                         T_map_base.theta_rad());
-  }
-  return lines;
-}
-
-std::string edge_line(const graph::RelativePose& factor) {
-  const auto keys = factor.keys();
-  const Pose2& T_i_j = factor.measured_T_i_j();
-  const Eigen::Matrix3d information = factor.information();
-  std::string line = fmt::format("EDGE_SE2 {} {} {} {} {}", keys[0].index, keys[1].index,
-                                 T_i_j.x_m(), T_i_j.y_m(), T_i_j.theta_rad());
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) {
-      line += fmt::format(" {}", information(row, column));
-    }
-  }
-  return line + "\n";
 }
 
 // What the vocabulary of g2o's SE2 types cannot hold, by name and number.
@@ -58,37 +35,37 @@ std::string omission_lines(const std::map<std::string, std::size_t>& factors,
   return lines;
 }
 
-std::string fix_lines(const std::set<std::uint32_t>& poses_with_prior,
-                      const std::vector<std::uint32_t>& poses) {
-  std::string lines;
-  for (const std::uint32_t index : poses_with_prior) {
-    lines += fmt::format("# pose {} has a prior; here it is fixed\nFIX {}\n", index, index);
-  }
-  if (lines.empty() && !poses.empty()) lines = fmt::format("FIX {}\n", poses.front());
-  return lines;
-}
-
 }  // namespace
 
 Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& values,
                        const std::filesystem::path& path) {
-  std::string edges;
+  PoseGraph written;
   std::set<std::uint32_t> poses_with_prior;
   std::map<std::string, std::size_t> left_out;
   for (const graph::FactorPtr& factor : graph.slots()) {
     if (factor == nullptr) continue;
     if (const auto* relative = dynamic_cast<const graph::RelativePose*>(factor.get())) {
-      edges += edge_line(*relative);
+      const auto keys = relative->keys();
+      written.edges.push_back(
+          {keys[0].index, keys[1].index, relative->measured_T_i_j(), relative->information()});
     } else if (const auto* prior = dynamic_cast<const graph::PosePrior*>(factor.get())) {
       poses_with_prior.insert(prior->keys()[0].index);
     } else {
       ++left_out[std::string(factor->type())];
     }
   }
-  const std::vector<std::uint32_t> poses = poses_of(values);
-  return write_file_atomically(path, omission_lines(left_out, values.size() - poses.size()) +
-                                         vertex_lines(poses, values) +
-                                         fix_lines(poses_with_prior, poses) + edges);
+  for (const std::uint32_t index : poses_of(values)) {
+    written.vertices.push_back({index, values.pose(index)});
+  }
+  written.fixed.assign(poses_with_prior.begin(), poses_with_prior.end());
+  if (written.fixed.empty() && !written.vertices.empty()) {
+    written.fixed.push_back(written.vertices.front().id);
+  }
+  std::string comments = omission_lines(left_out, values.size() - written.vertices.size());
+  for (const std::uint32_t index : poses_with_prior) {
+    comments += fmt::format("# pose {} has a prior; here it is fixed\n", index);
+  }
+  return write_file_atomically(path, comments + pose_graph_text(written, GraphFormat::kG2o));
 }
 
 }  // namespace corridor::formats

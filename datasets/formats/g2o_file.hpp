@@ -1,5 +1,6 @@
-// A planar pose graph as g2o text: VERTEX_SE2, EDGE_SE2, FIX.
+// What a graph-based system solved, as g2o text: VERTEX_SE2, EDGE_SE2, FIX.
 // Only what g2o's SE2 vocabulary holds: poses and relative poses. The rest is counted in a comment.
+// pose_graph_file.hpp reads it back.
 #pragma once
 
 #include <filesystem>

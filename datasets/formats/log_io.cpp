@@ -6,23 +6,22 @@
 #include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
+#include "datasets/formats/bag.hpp"
 #include "datasets/formats/calibration.hpp"
 #include "datasets/formats/carmen.hpp"
 #include "datasets/formats/file_bytes.hpp"
-#include "datasets/formats/lcm.hpp"
-#include "datasets/formats/lcm_framing.hpp"
+#include "datasets/formats/log_parsers.hpp"
 #include "datasets/formats/parsed_log.hpp"
 #include "datasets/formats/rawlog.hpp"
-#include "datasets/formats/robot_toml.hpp"
 #include "datasets/formats/stamp_order.hpp"
-#include "datasets/formats/ticks.hpp"
+#include "datasets/formats/tick_odometry.hpp"
 #include "datasets/formats/tum.hpp"
 
 namespace corridor::formats {
 namespace {
 
 // Longer suffixes before those they end with.
-constexpr std::array<std::pair<std::string_view, LogFormat>, 12> kSuffixes = {{
+constexpr std::array<std::pair<std::string_view, LogFormat>, 13> kSuffixes = {{
     {".lcm.log.gz", LogFormat::kLcm},
     {".lcm.log", LogFormat::kLcm},
     {".lcm.gz", LogFormat::kLcm},
@@ -35,11 +34,8 @@ constexpr std::array<std::pair<std::string_view, LogFormat>, 12> kSuffixes = {{
     {".log", LogFormat::kCarmen},
     {".rawlog.gz", LogFormat::kRawlog},
     {".rawlog", LogFormat::kRawlog},
+    {".bag", LogFormat::kRosbag},
 }};
-constexpr const char* kKnownNames =
-    "a name that ends in .clf .log .rawlog .lcm.log .lcm or .dat, or in one of these and .gz";
-// SICK LMS 200 family, the sensor of the FLASER era: codes from here on say "no return".
-constexpr double kFlaserRangeMax_m = 81.0;
 
 std::size_t known_suffix_length(std::string_view name) {
   for (const auto& [suffix, format] : kSuffixes) {
@@ -51,70 +47,6 @@ std::size_t known_suffix_length(std::string_view name) {
 bool is_file(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::is_regular_file(path, error);
-}
-
-// LOG.robot.toml, where it lies beside the log.
-struct Sidecar {
-  std::string file;
-  std::string text;
-};
-
-Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log) {
-  const std::filesystem::path path = sidecar_of(log, ".robot.toml");
-  if (!is_file(path)) return std::nullopt;
-  auto text = read_file_bytes(path);
-  if (!text) return tl::make_unexpected(text.error());
-  return Sidecar{path.string(), std::move(*text)};
-}
-
-// Raw numbers need their calibration before they are readings.
-Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std::string& file,
-                            const std::optional<Sidecar>& sidecar, const ReadLogOptions& options) {
-  RobotOverride stated;
-  stated.robot = options.robot.value_or(RobotModel{});
-  stated.raw = options.raw;
-  if (sidecar) {
-    auto read = override_robot(stated.robot, sidecar->text, sidecar->file, stated.raw);
-    if (!read) return tl::make_unexpected(read.error());
-    stated = std::move(*read);
-  }
-  if (!options.robot && !stated.states_wheels) {
-    return fail(ErrorCode::kInvalid, "nothing says what a tick of the wheels means", file,
-                "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
-                    sidecar_of(file, ".robot.toml").string());
-  }
-  if (format == LogFormat::kTicks) return parse_ticks(bytes, file, stated.robot);
-  return parse_lcm(bytes, file, {stated.raw, stated.robot});
-}
-
-Result<ParsedLog> parse(const std::filesystem::path& path, const std::optional<Sidecar>& sidecar,
-                        const ReadLogOptions& options) {
-  const auto format = format_from_suffix(path);
-  if (!format) {
-    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(), kKnownNames);
-  }
-  const auto bytes = read_file_bytes(path);
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  if (bytes->empty()) {
-    return fail(ErrorCode::kMalformed, "the log is empty", path.string(), "at least one scan");
-  }
-  // lcm-logger names its files as CARMEN's logger does.
-  const bool is_lcm = *format == LogFormat::kCarmen && begins_with_lcm_sync(*bytes);
-  const LogFormat found = is_lcm ? LogFormat::kLcm : *format;
-  Result<ParsedLog> parsed;
-  if (found == LogFormat::kRawlog) {
-    parsed = parse_rawlog(*bytes, path.string());
-  } else if (found == LogFormat::kCarmen) {
-    CarmenOptions carmen;
-    carmen.no_return_range_m = options.no_return_range_m;
-    carmen.flaser_range_max_m =
-        options.robot ? options.robot->lidar.range_max_m : kFlaserRangeMax_m;
-    parsed = parse_carmen(*bytes, path.string(), carmen);
-  } else {
-    parsed = parse_raw(*bytes, found, path.string(), sidecar, options);
-  }
-  if (parsed) parsed->format = to_text(found);
-  return parsed;
 }
 
 Result<void> settle_order(ParsedLog& parsed, const std::string& file, StampOrder order,
@@ -185,6 +117,8 @@ std::string_view to_text(LogFormat format) {
       return "carmen";
     case LogFormat::kRawlog:
       return "rawlog";
+    case LogFormat::kRosbag:
+      return "rosbag";
     case LogFormat::kLcm:
       return "lcm";
     case LogFormat::kTicks:
@@ -194,7 +128,7 @@ std::string_view to_text(LogFormat format) {
 }
 
 bool is_writable(LogFormat format) {
-  return format == LogFormat::kCarmen || format == LogFormat::kRawlog;
+  return format != LogFormat::kLcm && format != LogFormat::kTicks;
 }
 
 std::optional<LogFormat> format_from_suffix(const std::filesystem::path& log) {
@@ -214,7 +148,7 @@ std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_v
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options) {
   const auto sidecar = read_sidecar(path);
   if (!sidecar) return tl::make_unexpected(sidecar.error());
-  auto parsed = parse(path, *sidecar, options);
+  auto parsed = parse_log(path, *sidecar, options);
   if (!parsed) return tl::make_unexpected(parsed.error());
   SensorLog log;
   log.provenance.name = sidecar_of(path, "").filename().string();
@@ -232,6 +166,10 @@ Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptio
   if (!robot) return tl::make_unexpected(robot.error());
   log.robot = std::move(*robot);
   log.events = std::move(parsed->events);
+  if (parsed->has_wheel_ticks_only) {
+    auto integrated = integrate_wheel_ticks(log.events, log.robot.wheels, path.string());
+    if (!integrated) return tl::make_unexpected(integrated.error());
+  }
   if (auto attached = attach_truth(path, std::move(parsed->reference), log); !attached) {
     return tl::make_unexpected(attached.error());
   }
@@ -260,15 +198,21 @@ Result<void> write_carmen(const SensorLog& log, const std::filesystem::path& pat
   return write_file_atomically(path, *compressed);
 }
 
+Result<void> write_rosbag(const SensorLog& log, const std::filesystem::path& path) {
+  return write_bag_file(log, path);
+}
+
 Result<void> write_log(const SensorLog& log, const std::filesystem::path& path) {
   const auto format = format_from_suffix(path);
   if (!format || !is_writable(*format)) {
     return fail(
         ErrorCode::kUnsupported,
         format ? fmt::format("{} logs are read only", to_text(*format)) : "unknown kind of log",
-        path.string(), "a name that ends in .clf .clf.gz .log .log.gz .rawlog or .rawlog.gz");
+        path.string(), "a name that ends in .clf .clf.gz .log .log.gz .rawlog .rawlog.gz or .bag");
   }
-  auto written = *format == LogFormat::kRawlog ? write_rawlog(log, path) : write_carmen(log, path);
+  auto written = *format == LogFormat::kRawlog   ? write_rawlog(log, path)
+                 : *format == LogFormat::kRosbag ? write_rosbag(log, path)
+                                                 : write_carmen(log, path);
   if (!written || !log.truth) return written;
   return write_tum(*log.truth, sidecar_of(path, ".tum"));
 }

@@ -10,20 +10,21 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/formats/bag_topics.hpp"
 #include "datasets/formats/raw_sensors.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
 
 namespace corridor::formats {
 
-enum class LogFormat { kCarmen, kRawlog, kLcm, kTicks };
+enum class LogFormat { kCarmen, kRawlog, kRosbag, kLcm, kTicks };
 
-// "carmen", "rawlog", "lcm", "ticks".
+// "carmen", "rawlog", "rosbag", "lcm", "ticks".
 std::string_view to_text(LogFormat format);
 
-// Known log suffixes: .clf .clf.gz .log .log.gz (CARMEN), .rawlog .rawlog.gz (MRPT), .lcm.log
-// .lcm.log.gz .lcm .lcm.gz (LCM event log), .dat .dat.gz (ticks). A .log that begins as an LCM
-// event log does is read as one.
+// Known log suffixes: .clf .clf.gz .log .log.gz (CARMEN), .rawlog .rawlog.gz (MRPT), .bag (ROS 1),
+// .lcm.log .lcm.log.gz .lcm .lcm.gz (LCM event log), .dat .dat.gz (ticks). A .log that begins as an
+// LCM event log does is read as one.
 std::optional<LogFormat> format_from_suffix(const std::filesystem::path& log);
 
 // Logs of raw numbers (LCM, ticks) are read only.
@@ -52,10 +53,13 @@ struct ReadLogOptions {
   // after the drive.
   std::optional<double> cut_after_s;
   LogLimits limits;
+  // ROS bags: which topic is which sensor; LOG.topics.toml goes before it.
+  std::optional<BagTopics> topics;
 };
 
-// Reads a log, its calibration LOG.robot.toml and its truth LOG.tum, where they lie beside it. An
-// LCM log's own poses take the place of truth where there is no LOG.tum; provenance says so.
+// Reads a log, its calibration LOG.robot.toml, a bag's LOG.topics.toml and its truth LOG.tum, where
+// they lie beside it. An LCM log's own poses take the place of truth where there is no LOG.tum;
+// provenance says so.
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options = {});
 
 // The suite's own format: the robot model as TOML in the leading comment, then LIDAR, WHEELS and
@@ -65,6 +69,10 @@ Result<void> write_rawlog(const SensorLog& log, const std::filesystem::path& pat
 // ROBOTLASER1 and ODOM lines with stamps of 9 decimals; gzip-compressed if the name ends in .gz.
 // Writes no truth. An Error if the log has no scan.
 Result<void> write_carmen(const SensorLog& log, const std::filesystem::path& path);
+
+// Topics /scan, /odom and /imu of a ROS 1 bag, LZ4. Writes no truth. An Error if a stamp does not
+// fit ROS time.
+Result<void> write_rosbag(const SensorLog& log, const std::filesystem::path& path);
 
 // By the suffix of `path`, including truth as LOG.tum beside it.
 Result<void> write_log(const SensorLog& log, const std::filesystem::path& path);

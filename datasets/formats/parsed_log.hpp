@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxBeams = 65'536;
 
 struct ParsedLog {
   std::vector<SensorEvent> events;
-  // Where in the file each event stands: a line number (CARMEN) or a byte offset (rawlog).
+  // Where in the file each event stands: a line number (CARMEN) or a byte offset (rawlog, ROS bag).
   std::vector<std::uint64_t> origins;
   std::string origin_unit;  // "line", "byte"
   std::string format;       // as in Provenance
@@ -35,6 +35,11 @@ struct ParsedLog {
   std::optional<Trajectory> reference;
   // Where the log places its IMU.
   std::optional<Pose2> T_base_imu;
+  // What the log says of its scans besides their range_max_m.
+  std::optional<double> range_min_m;
+  std::optional<double> scan_duration_s;  // first to last beam
+  // Wheel samples have ticks; their poses follow from them and the robot model.
+  bool has_wheel_ticks_only = false;
   // Counted repairs and things left out, by what was done: "beams of range 0 taken as no return"
   // -> 12.
   std::map<std::string, std::size_t> counts;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/core/sensor_log.hpp"
-
 namespace corridor::formats {
 namespace {
 
@@ -38,6 +36,19 @@ Result<WheelSample> TickOdometry::take(Timestamp stamp, const WheelTicks& ticks,
   }
   last_ = sample;
   return sample;
+}
+
+Result<void> integrate_wheel_ticks(std::vector<SensorEvent>& events, const WheelModel& wheels,
+                                   const std::string& where) {
+  TickOdometry odometry(wheels);
+  for (SensorEvent& event : events) {
+    auto* sample = std::get_if<WheelSample>(&event);
+    if (sample == nullptr) continue;
+    Result<WheelSample> taken = odometry.take(sample->stamp, *sample->ticks, where);
+    if (!taken) return tl::make_unexpected(taken.error());
+    *sample = *taken;
+  }
+  return {};
 }
 
 }  // namespace corridor::formats

@@ -1,11 +1,14 @@
-// Wheel odometry from cumulative encoder ticks, for logs that hold nothing else.
+// Wheel odometry from cumulative encoder ticks, for logs that hold nothing else. Internal to this
+// folder.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "slam/core/result.hpp"
 #include "slam/core/robot_model.hpp"
+#include "slam/core/sensor_log.hpp"
 #include "slam/core/wheel.hpp"
 
 namespace corridor::formats {
@@ -24,5 +27,9 @@ class TickOdometry {
   WheelModel wheels_;
   std::optional<WheelSample> last_;
 };
+
+// The same for the wheel samples among events in order, each of which must have ticks.
+Result<void> integrate_wheel_ticks(std::vector<SensorEvent>& events, const WheelModel& wheels,
+                                   const std::string& where);
 
 }  // namespace corridor::formats

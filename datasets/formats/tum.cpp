@@ -4,27 +4,28 @@
 
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/text.hpp"
+#include "datasets/formats/trajectory_rules.hpp"
+#include "datasets/formats/trajectory_texts.hpp"
 
 namespace corridor::formats {
 namespace {
 
 constexpr std::size_t kNumFields = 8;
-// Files with six decimals have quaternions this far from unit length; more is not a rotation.
-constexpr double kMaxNormError = 1e-3;
-// sin of half of the largest roll or pitch that still counts as planar.
-constexpr double kMaxTilt = 0.5e-6;
 constexpr const char* kLayout = "'stamp x y z qx qy qz qw'";
 
-struct PlanarPose {
+struct SpatialPose {
   Timestamp stamp;
   Pose2 T_map_base;
+  double z_m = 0;
 };
 
-Result<PlanarPose> parse_pose(std::string_view line, const std::string& where) {
+Result<SpatialPose> parse_pose(std::string_view line, const std::string& where) {
   const auto fields = split_fields(line);
   if (fields.size() != kNumFields) {
     return fail(ErrorCode::kMalformed, fmt::format("{} fields", fields.size()), where,
@@ -35,29 +36,20 @@ Result<PlanarPose> parse_pose(std::string_view line, const std::string& where) {
     return fail(ErrorCode::kMalformed, "stamp " + quote(fields[0]), where, "decimal seconds");
   }
   std::array<double, kNumFields - 1> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto number = parse_double(fields[i + 1]);
-    if (!number || !std::isfinite(*number)) {
-      return fail(ErrorCode::kMalformed, "field " + quote(fields[i + 1]), where, "a finite number");
-    }
-    numbers[i] = *number;
+  if (auto good = parse_finite(std::span(fields).subspan(1), where, numbers); !good) {
+    return tl::make_unexpected(good.error());
   }
   const auto [x_m, y_m, z_m, qx, qy, qz, qw] = numbers;
-  const double norm = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
-  if (std::abs(norm - 1) > kMaxNormError) {
-    return fail(ErrorCode::kInvalid, fmt::format("quaternion of length {:.6g}", norm), where, "1");
-  }
-  if (std::hypot(qx, qy) > kMaxTilt) {
-    return fail(ErrorCode::kUnsupported, fmt::format("roll or pitch (qx = {}, qy = {})", qx, qy),
-                where, "a planar pose, qx = qy = 0");
-  }
-  return PlanarPose{*stamp, Pose2(x_m, y_m, 2 * std::atan2(qz, qw))};
+  const auto yaw_rad = yaw_of_quaternion(qx, qy, qz, qw, where);
+  if (!yaw_rad) return tl::make_unexpected(yaw_rad.error());
+  return SpatialPose{*stamp, Pose2(x_m, y_m, *yaw_rad), z_m};
 }
 
 }  // namespace
 
-Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
-  Trajectory trajectory;
+Result<ReadTrajectory> parse_tum_trajectory(std::string_view text, const std::string& name) {
+  ReadTrajectory read;
+  std::size_t num_raised = 0;
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {
     const std::string where = fmt::format("{}:{}", name, ++line_number);
@@ -66,12 +58,21 @@ Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
     if (first.empty() || first.front() == '#') continue;
     const auto pose = parse_pose(*line, where);
     if (!pose) return tl::make_unexpected(pose.error());
-    if (!trajectory.append({pose->stamp, pose->T_map_base, std::nullopt})) {
-      return fail(ErrorCode::kInvalid, "stamp " + quote(first) + " is not later than the last",
-                  where, "stamps that increase");
-    }
+    auto appended = append_pose(read.trajectory, pose->stamp, pose->T_map_base, first, where);
+    if (!appended) return tl::make_unexpected(appended.error());
+    if (pose->z_m != 0) ++num_raised;
   }
-  return trajectory;
+  if (num_raised > 0) read.notes.push_back(fmt::format("{} heights left out", num_raised));
+  if (auto good = check_stamp_unit(read.trajectory, name, "seconds"); !good) {
+    return tl::make_unexpected(good.error());
+  }
+  return read;
+}
+
+Result<Trajectory> parse_tum(std::string_view text, const std::string& name) {
+  auto read = parse_tum_trajectory(text, name);
+  if (!read) return tl::make_unexpected(read.error());
+  return std::move(read->trajectory);
 }
 
 Result<Trajectory> read_tum(const std::filesystem::path& path) {

@@ -57,6 +57,12 @@ struct Door {
 const std::vector<Door>& doors() {
   static const std::vector<Door> table{
       {"mrpt/", {"datasets/formats/rawlog", "baselines/mrpt/"}},
+      {"rosbag/", {"datasets/formats/rosbag_door"}},
+      {"ros/", {"datasets/formats/rosbag_door"}},
+      {"nav_msgs/", {"datasets/formats/rosbag_door"}},
+      {"sensor_msgs/", {"datasets/formats/rosbag_door"}},
+      {"bzlib.h", {"datasets/formats/bag_chunk"}},
+      {"lz4", {"datasets/formats/bag_chunk"}},
       {"open3d/", {"bench/metrics/map_cloud"}},
       {"ceres/", {"slam/backend/ceres/"}},
       {"cholmod", {"slam/linear/"}},

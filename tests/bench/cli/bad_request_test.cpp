@@ -137,8 +137,8 @@ TEST(BadRequest, AConversionOntoItselfOrBesideAnotherLogsWorld) {
   folder.write("b.truth.toml", "another world");
   folder.write("c.tum", "1 0 0 0 0 0 0 1\n");
   std::filesystem::create_symlink("a.clf", folder / "link.clf");
-  expect_refused(folder, "convert a.clf a.clf", {"a.clf", "the log that is read"});
-  expect_refused(folder, "convert a.clf ./link.clf", {"link.clf", "the log that is read"});
+  expect_refused(folder, "convert a.clf a.clf", {"a.clf", "the file that is read"});
+  expect_refused(folder, "convert a.clf ./link.clf", {"link.clf", "the file that is read"});
   expect_refused(folder, "convert a.clf b.rawlog", {"b.truth.toml", "would pass for"});
   expect_refused(folder, "convert a.clf c.rawlog", {"c.tum", "would pass for"});
   EXPECT_EQ(text_of(folder / "a.clf"), kGoodLog);

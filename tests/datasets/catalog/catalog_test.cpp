@@ -113,6 +113,28 @@ TEST(Catalog, RefusesFilesOutsideTheDataFolder) {
             std::string::npos);
 }
 
+TEST(Catalog, ABagNamesItsTopicsAndNoOtherFormatDoes) {
+  const ScratchFolder folder;
+  const std::string topics =
+      "topics.scan = \"/scan\"\ntopics.joints = \"/joints\"\njoints.left = \"l\"\n"
+      "joints.right = \"r\"\njoints.ticks_per_turn = 4096\n";
+  std::string text = entry_text(topics);
+  const auto refused = read_catalog(folder.write("carmen.toml", text));
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().to_line().find("only a rosbag has topics"), std::string::npos);
+  text.replace(text.find("\"carmen\""), 8, "\"rosbag\"");
+  const auto catalog = read_catalog(folder.write("bag.toml", text));
+  ASSERT_TRUE(catalog.has_value()) << catalog.error().to_line();
+  const CatalogEntry& entry = catalog->entries.front();
+  EXPECT_TRUE(entry.is_readable());
+  ASSERT_TRUE(entry.topics.has_value() && entry.topics->joints.has_value());
+  EXPECT_EQ(entry.topics->scan, "/scan");
+  EXPECT_EQ(entry.topics->joints->ticks_per_turn, 4096);
+  const auto wrong = read_catalog(folder.write("wrong.toml", text + "topics.lidar = \"/x\"\n"));
+  ASSERT_FALSE(wrong.has_value());
+  EXPECT_NE(wrong.error().to_line().find("topics.lidar: unknown key"), std::string::npos);
+}
+
 TEST(LoadDataset, ByNameTakesOrderCalibrationAndTruthFromTheCatalogue) {
   const TinyData data;
   const auto loaded = load_dataset("tiny", data.dirs, data.catalog());

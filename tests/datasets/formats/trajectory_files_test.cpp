@@ -21,7 +21,7 @@ RC_GTEST_PROP(Tum, ReadUndoesWrite, (std::vector<std::tuple<int, int, int>> step
   Trajectory trajectory;
   std::int64_t stamp_ns = -3'000'000'001;
   for (const auto& [dx, dy, dtheta] : steps) {
-    stamp_ns += 1 + std::abs(static_cast<std::int64_t>(dx));
+    stamp_ns += 1'000'001 + std::abs(static_cast<std::int64_t>(dx));
     RC_ASSERT(trajectory.append({{stamp_ns}, Pose2(dx / 7.0, dy / 3e3, dtheta / 1e5), {}}));
   }
   const auto read = parse_tum(tum_text(trajectory), "t.tum");

@@ -1,0 +1,32 @@
+#include <fmt/format.h>
+
+#include "bench/cli/conversions.hpp"
+#include "bench/cli/staged_files.hpp"
+#include "bench/runner/exit_code.hpp"
+#include "datasets/formats/pose_graph_file.hpp"
+
+namespace corridor::cli {
+
+Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::filesystem::path& out,
+                               const CommonOptions& common) {
+  const auto target = formats::graph_format_from_suffix(out);
+  if (!target) {
+    return fail(ErrorCode::kUnsupported, "a pose graph becomes a pose graph only", out.string(),
+                ".g2o, .graph or .toro");
+  }
+  if (const Result<void> good = check_targets({out}); !good)
+    return tl::make_unexpected(good.error());
+  const auto graph = formats::read_pose_graph(in);
+  if (!graph) return tl::make_unexpected(graph.error());
+  if (const Result<void> written = formats::write_pose_graph(*graph, out); !written) {
+    return tl::make_unexpected(written.error());
+  }
+  for (const std::string& note : graph->notes) common.say("note: " + note);
+  const auto losses = formats::losses_of_conversion(*graph, *target);
+  for (const std::string& loss : losses) common.say("lost: " + loss);
+  common.say(fmt::format("{}: {} poses, {} edges{}", out.string(), graph->vertices.size(),
+                         graph->edges.size(), losses.empty() ? ", nothing lost" : ""));
+  return runner::kExitDone;
+}
+
+}  // namespace corridor::cli

@@ -1,0 +1,111 @@
+// The command `convert`: which kind of file becomes which, what is said about it, what is refused.
+#include <gtest/gtest.h>
+
+#include "tests/bench/cli/program.hpp"
+
+namespace corridor::testing {
+namespace {
+
+constexpr const char* kTum = "1.000000001 1 2 0 0 0 0 1\n2.5 3 4 0 0 0 1 0\n";
+constexpr const char* kG2o =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nFIX 0\nEDGE_SE2 0 1 1 0 0 1 0.1 0.2 2 0.3 3\n";
+
+void expect_refused(const ScratchFolder& folder, const std::string& arguments,
+                    const std::vector<std::string>& parts) {
+  const std::vector<std::string> before = contents_of(folder.path());
+  const Answer answer = run_program(folder, arguments);
+  EXPECT_EQ(answer.exit_code, 2) << arguments;
+  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+  EXPECT_EQ(answer.out, "") << arguments;
+  for (const std::string& part : parts) {
+    EXPECT_NE(answer.err.find(part), std::string::npos) << part << " in " << answer.err;
+  }
+  EXPECT_EQ(contents_of(folder.path()), before) << arguments;
+}
+
+TEST(Convert, TakesATrajectoryThroughEveryFormatAndBack) {
+  const ScratchFolder folder;
+  folder.write("a.tum", kTum);
+  for (const std::string step :
+       {"a.tum b.kitti", "b.kitti c.csv", "c.csv d.clf.gz", "d.clf.gz e.tum"}) {
+    const Answer answer = run_program(folder, "convert " + step);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("2 poses"), std::string::npos) << answer.out;
+  }
+  EXPECT_EQ(text_of(folder / "b.times"), "1.000000001\n2.500000000\n");
+  const std::string text = text_of(folder / "e.tum");
+  EXPECT_EQ(text.find("1.000000001 1 2 0 0 0 0 1\n2.500000000 3 4 0 0 0 1 "), 0U) << text;
+}
+
+TEST(Convert, SaysThatKittiHoldsNoStamps) {
+  const ScratchFolder folder;
+  folder.write("a.tum", kTum);
+  const Answer answer = run_program(folder, "convert a.tum b.kitti");
+  EXPECT_NE(answer.out.find("lost: 2 stamps"), std::string::npos) << answer.out;
+}
+
+TEST(Convert, TakesAGraphToToroAndBackWithoutChangingANumber) {
+  const ScratchFolder folder;
+  folder.write("a.g2o", kG2o);
+  const Answer there = run_program(folder, "convert a.g2o b.graph");
+  EXPECT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_NE(there.out.find("lost: 1 fixed poses"), std::string::npos) << there.out;
+  EXPECT_EQ(text_of(folder / "b.graph"),
+            "VERTEX2 0 0 0 0\nVERTEX2 1 1 0 0\nEDGE2 0 1 1 0 0 1 0.1 2 3 0.2 0.3\n");
+  const Answer back = run_program(folder, "convert b.graph c.g2o");
+  EXPECT_NE(back.out.find("2 poses, 1 edges, nothing lost"), std::string::npos) << back.out;
+  EXPECT_EQ(text_of(folder / "c.g2o"),
+            "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0.1 0.2 2 0.3 3\n");
+}
+
+TEST(Convert, TakesALogToARosBagAndBack) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  const Answer there = run_program(folder, "convert a.rawlog b.bag");
+  ASSERT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_NE(there.out.find("lost: the robot model"), std::string::npos) << there.out;
+  EXPECT_TRUE(std::filesystem::exists(folder / "b.tum")) << "the truth goes along";
+  const Answer back = run_program(folder, "convert b.bag c.rawlog");
+  ASSERT_EQ(back.exit_code, 0) << back.err;
+  // Both end with "NAME: N scans, N wheel samples, N inertial samples".
+  const auto counts = [](const std::string& said) {
+    const std::size_t begin = said.rfind(": ") + 2;
+    return said.substr(begin, said.find(" inertial") - begin);
+  };
+  EXPECT_EQ(counts(back.out), counts(there.out));
+}
+
+TEST(Convert, RefusesABrokenBagAndAStrangersTopics) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  ASSERT_EQ(run_program(folder, "convert a.rawlog b.bag --quiet").exit_code, 0);
+  const std::string bag = text_of(folder / "b.bag");
+  folder.write("cut.bag", bag.substr(0, bag.size() / 2));
+  folder.write("d.topics.toml", "[topics]\n");
+  expect_refused(folder, "convert cut.bag c.rawlog", {"cut.bag: byte 13: ", "index at byte"});
+  expect_refused(folder, "convert a.rawlog d.bag", {"d.topics.toml", "topics of the new bag"});
+}
+
+TEST(Convert, RefusesToMakeOneKindOfFileFromAnother) {
+  const ScratchFolder folder;
+  folder.write("a.tum", kTum);
+  folder.write("a.g2o", kG2o);
+  expect_refused(folder, "convert a.tum b.g2o", {"b.g2o", "trajectory", ".tum"});
+  expect_refused(folder, "convert a.g2o b.tum", {"b.tum", "graph", ".g2o"});
+  expect_refused(folder, "convert a.tum b.rawlog", {"b.rawlog", "trajectory"});
+  expect_refused(folder, "convert a.g2o a.g2o", {"a.g2o", "the file that is read"});
+  expect_refused(folder, "convert a.g2o no/b.graph", {"no", "folder"});
+}
+
+TEST(Convert, NamesTheLineOfADefect) {
+  const ScratchFolder folder;
+  folder.write("bad.g2o", std::string(kG2o) + "EDGE_SE2 0 7 1 0 0 1 0 0 1 0 1\n");
+  folder.write("bad.csv", "1000,0,0,0,0,0,0,0\n");
+  folder.write("alone.kitti", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  expect_refused(folder, "convert bad.g2o b.graph", {"bad.g2o:5: ", "pose 7"});
+  expect_refused(folder, "convert bad.csv b.tum", {"bad.csv:1: ", "quaternion"});
+  expect_refused(folder, "convert alone.kitti b.tum", {"alone.kitti", "alone.times"});
+}
+
+}  // namespace
+}  // namespace corridor::testing
