@@ -6,6 +6,7 @@
 
 #include "bench/cli/conversions.hpp"
 #include "bench/cli/staged_files.hpp"
+#include "bench/runner/case_data.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "datasets/formats/log_io.hpp"
 
@@ -82,11 +83,11 @@ Result<void> write_all(const catalog::LoadedDataset& in, const fs::path& out) {
 Result<ExitCode> convert_log(const std::string& in, const fs::path& out,
                              const CommonOptions& common) {
   const auto target = formats::format_from_suffix(out);
-  if (!target) {
-    return fail(ErrorCode::kUnsupported, "the suffix names no log format", out.string(),
-                ".rawlog, .clf, .clf.gz or .bag");
+  if (!target || !formats::is_writable(*target)) {
+    return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written",
+                out.string(), ".rawlog, .clf, .clf.gz or .bag");
   }
-  const Result<catalog::LoadedDataset> loaded = catalog::load_dataset(in, common.data_dirs());
+  const Result<catalog::LoadedDataset> loaded = runner::load_dataset(in, common.data_dirs());
   if (!loaded) return tl::make_unexpected(loaded.error());
   if (const Result<void> good = check_convert(*loaded, out); !good) {
     return tl::make_unexpected(good.error());
