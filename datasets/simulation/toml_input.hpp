@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -51,6 +52,12 @@ bool read_value(const toml::node& node, T& value) {
   }
   return true;
 }
+
+// "[x, y]" and a list of such; numbers only. What is not is a problem and reads as (0, 0).
+Eigen::Vector2d read_point(const toml::node& node, std::string_view key,
+                           std::vector<TomlProblem>& problems);
+std::vector<Eigen::Vector2d> read_points(const toml::node& node, std::string_view key,
+                                         std::vector<TomlProblem>& problems);
 
 enum class MissingKeys { kKeepDefault, kAreErrors };
 
