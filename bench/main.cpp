@@ -1,6 +1,8 @@
 // The program corridor-bench: takes the command line apart and starts the command.
 // Errors go to stderr in one line; the exit codes are those of bench/runner/exit_code.hpp.
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -112,7 +114,8 @@ int answer_parse_error(const CLI::App& app, const CLI::ParseError& error, int ar
   if (unknown.empty()) {
     print_error(std::string(error.what()) + "; see --help");
   } else {
-    print_error("unknown command \"" + unknown + "\"; expected " + alternatives(*parent));
+    print_error(
+        fmt::format(R"(unknown command "{}"; expected {})", unknown, alternatives(*parent)));
   }
   return corridor::runner::kExitBadRequest;
 }

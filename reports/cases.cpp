@@ -1,7 +1,10 @@
 #include "reports/cases.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -36,6 +39,24 @@ auto sort_key(const Series& series) {
 auto sort_key(const Case& entry) {
   const results::RunResult& r = entry.result;
   return std::make_tuple(r.dataset, sort_key(series_of(r)), r.data_seed, r.system_seed, r.case_id);
+}
+
+constexpr std::size_t kDigestDigits = 6;
+
+// A case that failed before its data were known stays with the name, which tells it from nothing.
+void separate_data(std::vector<Case>& cases) {
+  std::map<std::string, std::set<std::string>> digests;
+  for (Case& entry : cases) {
+    entry.dataset_given = entry.result.dataset;
+    const std::string digest = entry.result.data_digest.value_or("");
+    if (!digest.empty()) digests[entry.dataset_given].insert(digest);
+  }
+  for (Case& entry : cases) {
+    const std::string digest = entry.result.data_digest.value_or("");
+    if (digest.empty() || digests[entry.dataset_given].size() < 2) continue;
+    entry.result.dataset = fmt::format("{} (#{})", entry.dataset_given,
+                                       std::string_view(digest).substr(0, kDigestDigits));
+  }
 }
 
 Result<std::vector<results::RunResult>> read_json_files(const fs::path& run_dir) {
@@ -94,6 +115,7 @@ World world_of(const results::RunResult& result) {
 Cases::Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
              std::vector<fs::path> run_dirs)
     : cases_(std::move(cases)), machines_(std::move(machines)), run_dirs_(std::move(run_dirs)) {
+  separate_data(cases_);
   std::stable_sort(cases_.begin(), cases_.end(), [](const Case& left, const Case& right) {
     return sort_key(left) < sort_key(right);
   });

@@ -18,7 +18,8 @@ namespace corridor::reports {
 
 struct Case {
   results::RunResult result;
-  std::filesystem::path dir;  // runs/<case-id>: trajectories and maps, where the run left any
+  std::filesystem::path dir;       // runs/<case-id>: trajectories and maps, where the run left any
+  std::string dataset_given = {};  // the data set as the run called it; filled in by Cases
 };
 
 // What is compared: one system with one set of parameters, made by one revision of the code.
@@ -47,7 +48,8 @@ World world_of(const results::RunResult& result);
 
 class Cases {
  public:
-  // `run_dirs` are named in the page's commands.
+  // `run_dirs` are named on the page. Data sets of one name but other content are not one: in the
+  // cases' results a part of the content's digest then stands behind the name, "log (#12ab34)".
   Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
         std::vector<std::filesystem::path> run_dirs);
 

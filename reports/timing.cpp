@@ -3,29 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace corridor::reports {
 namespace {
 
-// Records of older revisions have no such field, and a number below one means nothing.
-template <class Record>
-std::optional<std::int64_t> jobs_field(const Record& record) {
-  if constexpr (requires { record.jobs; }) {
-    const std::optional<std::int64_t> jobs = record.jobs;
-    return jobs && *jobs > 0 ? jobs : std::nullopt;
-  } else {
-    return std::nullopt;
-  }
-}
-
 std::string jobs_note(const Cases& cases) {
   const std::size_t num_cases = cases.all().size();
   std::size_t num_unknown = 0;
   std::size_t num_beside_others = 0;
-  std::int64_t most = 1;
+  int most = 1;
   for (const Case& entry : cases.all()) {
-    const auto jobs = jobs_of(entry.result);
+    const std::optional<int> jobs = entry.result.jobs;
     num_unknown += jobs ? 0 : 1;
     num_beside_others += jobs && *jobs > 1 ? 1 : 0;
     most = std::max(most, jobs.value_or(1));
@@ -49,8 +39,6 @@ std::string jobs_note(const Cases& cases) {
 
 }  // namespace
 
-std::optional<std::int64_t> jobs_of(const results::RunResult& result) { return jobs_field(result); }
-
 std::vector<std::string> timing_notes(const Cases& cases) {
   std::vector<std::string> notes = {jobs_note(cases)};
   std::set<std::string> machines;
@@ -66,7 +54,7 @@ std::vector<std::string> timing_notes(const Cases& cases) {
         machines.size()));
   }
   if (threads.size() > 1) {
-    notes.push_back("Warning: the cases were given different numbers of threads.");
+    notes.emplace_back("Warning: the cases were given different numbers of threads.");
   }
   return notes;
 }

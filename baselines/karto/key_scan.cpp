@@ -50,7 +50,7 @@ void KeyScan::set_T_map_sensor(const Pose2& T_map_sensor) {
   for (std::size_t i = 0; i < beams_sensor_m_.size(); ++i) {
     const bool is_kept = options_.keep_no_returns && beams_sensor_m_[i].allFinite();
     if (!is_in_range_[i] && !is_kept) continue;
-    points_map_m_.push_back(R_map_sensor * beams_sensor_m_[i] + t_map_sensor_m);
+    points_map_m_.emplace_back(R_map_sensor * beams_sensor_m_[i] + t_map_sensor_m);
     if (is_in_range_[i]) sum_m += points_map_m_.back();
   }
   reference_map_m_ = options_.use_barycentre && is_usable()

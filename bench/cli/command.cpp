@@ -1,5 +1,7 @@
 #include "bench/cli/command.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <charconv>
@@ -15,7 +17,7 @@ namespace {
 std::string not_a_folder(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return "";
-  return "\"" + path + "\" is no folder; expected an existing folder with data sets";
+  return fmt::format(R"("{}" is no folder; expected an existing folder with data sets)", path);
 }
 
 }  // namespace

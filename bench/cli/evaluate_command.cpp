@@ -105,7 +105,7 @@ std::string not_a_time_span(const std::string& text) {
   const auto [parsed_to, error] = std::from_chars(text.data(), end, value_s);
   const bool is_number = error == std::errc() && parsed_to == end && std::isfinite(value_s);
   if (is_number && value_s >= 0) return "";
-  return "\"" + text + "\" is no time span; expected seconds, 0 or more";
+  return fmt::format(R"("{}" is no time span; expected seconds, 0 or more)", text);
 }
 
 metrics::CaseEvidence evidence_of(const Inputs& inputs) {

@@ -77,7 +77,7 @@ Result<void> check_overrides(const runner::Suite& suite, const std::vector<std::
     if (std::any_of(suite.systems.begin(), suite.systems.end(), runs_it)) continue;
     std::vector<std::string> run;
     for (const runner::SystemChoice& choice : suite.systems) run.push_back(choice.system);
-    return fail(ErrorCode::kInvalid, fmt::format("system \"{}\" is not run", system), "--set",
+    return fail(ErrorCode::kInvalid, fmt::format(R"(system "{}" is not run)", system), "--set",
                 fmt::format("one of: {}", fmt::join(without_repeats(run), ", ")));
   }
   return {};
@@ -175,7 +175,7 @@ Result<runner::Suite> RunCommand::requested_suite() const {
 
 Result<ExitCode> RunCommand::run(const ReportWriter& write_report) const {
   if (executor != "local") {
-    return fail(ErrorCode::kUnsupported, fmt::format("executor \"{}\" is not known", executor),
+    return fail(ErrorCode::kUnsupported, fmt::format(R"(executor "{}" is not known)", executor),
                 "--executor", "local");
   }
   const Result<runner::Suite> requested = requested_suite();

@@ -1,4 +1,4 @@
-// Short names for texts: the head of a SHA-256, through OpenSSL's libcrypto.
+// Short names for texts: the head of a SHA-256.
 #pragma once
 
 #include <string>

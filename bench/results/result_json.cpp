@@ -1,5 +1,7 @@
 #include "bench/results/result_json.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -205,11 +207,12 @@ Result<RunResult> result_from_json(std::string_view text, std::string_view where
     if (wrong.empty() && found != json.end() && !read(*found, field)) wrong = key.name;
   });
   if (!wrong.empty()) {
-    return fail(ErrorCode::kInvalid, "key \"" + wrong + "\" has a value of the wrong type",
-                std::string(where), "a result record");
+    return fail(ErrorCode::kInvalid,
+                fmt::format(R"(key "{}" has a value of the wrong type)", wrong), std::string(where),
+                "a result record");
   }
   if (!json.contains("status") || !json.contains("case_id")) {
-    return fail(ErrorCode::kInvalid, "keys \"case_id\" and \"status\" are not both there",
+    return fail(ErrorCode::kInvalid, R"(keys "case_id" and "status" are not both there)",
                 std::string(where), "a result record");
   }
   return result;

@@ -113,12 +113,12 @@ Result<void> create_tables(Database& database) {
       "cpu_model TEXT, num_cores INTEGER, memory_mib INTEGER, kernel TEXT, "
       "compiler TEXT);";
   sql += fmt::format("PRAGMA application_id = {};", kApplicationId);
-  if (const Result<void> done = database.execute(sql); !done) return done;
+  if (Result<void> done = database.execute(sql); !done) return done;
   const Result<std::set<std::string>> existing = existing_columns(database);
   if (!existing) return tl::make_unexpected(existing.error());
   for (const Column& column : columns()) {
     if (existing->contains(column.name)) continue;
-    const Result<void> added = database.execute(
+    Result<void> added = database.execute(
         fmt::format("ALTER TABLE cases ADD COLUMN \"{}\" {}", column.name, column.type));
     if (!added) return added;
   }
@@ -128,7 +128,7 @@ Result<void> create_tables(Database& database) {
 // BEGIN ... COMMIT around `change`; ROLLBACK if it fails.
 template <class F>
 Result<void> in_transaction(Database& database, F&& change) {
-  if (const Result<void> begun = database.execute("BEGIN IMMEDIATE"); !begun) return begun;
+  if (Result<void> begun = database.execute("BEGIN IMMEDIATE"); !begun) return begun;
   Result<void> done = change();
   if (done) done = database.execute("COMMIT");
   if (!done) (void)database.execute("ROLLBACK");
@@ -200,7 +200,7 @@ Result<void> ResultsStore::put(const std::vector<RunResult>& results) {
   if (!statement) return tl::make_unexpected(statement.error());
   return in_transaction(connection_->database, [&]() -> Result<void> {
     for (const RunResult& result : results) {
-      if (const Result<void> done = insert(*statement, result); !done) return done;
+      if (Result<void> done = insert(*statement, result); !done) return done;
     }
     statement->reset();
     return {};

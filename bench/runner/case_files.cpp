@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 Result<void> write_map(const GridMap& map, const fs::path& folder, const std::string& stem) {
   if (map.empty()) return {};
-  if (const auto done = formats::write_ros_map(map, folder / stem); !done) return done;
+  if (auto done = formats::write_ros_map(map, folder / stem); !done) return done;
   return formats::write_map_png(map, folder / (stem + ".png"));
 }
 
@@ -38,7 +38,7 @@ Result<void> write_health(const std::vector<HealthSample>& health, const fs::pat
 
 Result<void> write_data_truth(const CaseData& data, const fs::path& folder) {
   if (data.log.truth) {
-    const auto done = formats::write_tum(*data.log.truth, folder / "truth.tum");
+    auto done = formats::write_tum(*data.log.truth, folder / "truth.tum");
     if (!done) return done;
   }
   if (!data.simulation_truth) return {};
@@ -47,7 +47,7 @@ Result<void> write_data_truth(const CaseData& data, const fs::path& folder) {
 }
 
 Result<void> write_estimate(const SlamEstimate& estimate, const fs::path& folder) {
-  const auto done = formats::write_tum(estimate.trajectory, folder / "final.tum");
+  auto done = formats::write_tum(estimate.trajectory, folder / "final.tum");
   if (!done || !estimate.map) return done;
   return write_map(*estimate.map, folder, "map");
 }
@@ -94,7 +94,7 @@ Result<void> write_record(const fs::path& folder, const CaseSpec& spec,
   for (const auto& [name, text] :
        {std::pair("spec.json", &spec_text), std::pair("result.json", &result_text),
         std::pair("log.txt", &log_text)}) {
-    const auto done = formats::write_file_atomically(folder / name, std::string_view(*text));
+    auto done = formats::write_file_atomically(folder / name, std::string_view(*text));
     if (!done) return done;
   }
   return {};

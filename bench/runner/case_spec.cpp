@@ -54,13 +54,13 @@ class Reader {
   void take(const char* name, T& value) {
     const auto found = json_.find(name);
     if (found == json_.end()) {
-      problem(fmt::format("key \"{}\" is missing", name));
+      problem(fmt::format(R"(key "{}" is missing)", name));
       return;
     }
     try {
       found->get_to(value);
     } catch (const Json::exception&) {
-      problem(fmt::format("key \"{}\" has a value of the wrong type", name));
+      problem(fmt::format(R"(key "{}" has a value of the wrong type)", name));
     }
     json_.erase(name);
   }
@@ -76,7 +76,7 @@ class Reader {
   }
 
   [[nodiscard]] Result<void> finish() {
-    for (const auto& item : json_.items()) problem(fmt::format("unknown key \"{}\"", item.key()));
+    for (const auto& item : json_.items()) problem(fmt::format(R"(unknown key "{}")", item.key()));
     if (problems_.empty()) return {};
     return fail(ErrorCode::kInvalid, problems_, where_, "a case as `run` writes it");
   }
@@ -130,7 +130,7 @@ Result<CaseSpec> case_spec_from_json(std::string_view text, std::string_view whe
   reader.take("limits", limits);
   reader.take("data_digest", spec.data_digest);
   if (kind != "simulated" && kind != "recorded") {
-    reader.problem("data_kind is neither \"simulated\" nor \"recorded\"");
+    reader.problem(R"(data_kind is neither "simulated" nor "recorded")");
   }
   spec.data_kind = kind == "recorded" ? DataKind::kRecorded : DataKind::kSimulated;
   if (spec.data_kind == DataKind::kSimulated && !spec.data_seed) {

@@ -1,13 +1,13 @@
 #include "bench/runner/child_pool.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
+#include <ctime>
 #include <optional>
 
 #include "bench/runner/process_clock.hpp"
@@ -41,6 +41,7 @@ struct Child {
 std::optional<Child> start(const ChildTask& task, std::size_t index, const sigset_t& signals) {
   std::vector<std::string> words = task.command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const int output = open(task.output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

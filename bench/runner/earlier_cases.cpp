@@ -30,7 +30,7 @@ Result<EarlierCases> earlier_cases(const results::ResultsStore& store,
     if (!is_known || same_name->second == *record.data_digest) continue;
     return fail(
         ErrorCode::kInvalid,
-        fmt::format("holds results of another data set that is called \"{}\" too", record.dataset),
+        fmt::format(R"(holds results of another data set that is called "{}" too)", record.dataset),
         folder.string(), "another --out, or a log of another name");
   }
   earlier.suites.assign(suites.begin(), suites.end());

@@ -18,7 +18,7 @@ std::string with_folders(const DataItem& item, std::size_t num_folders) {
   std::string name = item.name;
   fs::path folder = fs::path(item.source).parent_path();
   for (std::size_t i = 0; i < num_folders && folder.has_relative_path(); ++i) {
-    name = folder.filename().string() + "/" + name;
+    name.insert(0, folder.filename().string() + "/");
     folder = folder.parent_path();
   }
   return name;

@@ -29,7 +29,7 @@ Result<DataItem> scenario_item(const std::string& source) {
   const bool is_path = path->stem() != source.substr(0, source.rfind('@'));
   std::string values = simulation::world_toml(scenario->world);
   for (const auto& [key, value] : simulation::scenario_values(*scenario)) {
-    values += key + " = " + value + "\n";
+    values += fmt::format("{} = {}\n", key, value);
   }
   return DataItem{DataKind::kSimulated, scenario->name, is_path ? absolute_source(source) : source,
                   results::short_digest(values), true};

@@ -1,9 +1,9 @@
 #include "bench/runner/process_clock.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <string>

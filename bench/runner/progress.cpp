@@ -45,7 +45,7 @@ Progress::Progress(std::size_t num_cases, bool is_quiet, bool is_terminal,
 
 Progress::~Progress() { erase_status(); }
 
-void Progress::erase_status() {
+void Progress::erase_status() const {
   if (!is_terminal_) return;
   std::fputs("\r\033[K", stdout);
   std::fflush(stdout);

@@ -25,7 +25,7 @@ class Progress {
   void tick();
 
  private:
-  void erase_status();
+  void erase_status() const;
 
   std::size_t num_cases_;
   std::size_t num_done_ = 0;

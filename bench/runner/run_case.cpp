@@ -178,7 +178,7 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
     if (values) result.parameters = *values;
   }
   std::string text;
-  for (const auto& [name, value] : result.parameters) text += name + " = " + value + "\n";
+  for (const auto& [name, value] : result.parameters) text += fmt::format("{} = {}\n", name, value);
   result.parameters_hash = results::short_digest(text);
   return result;
 }

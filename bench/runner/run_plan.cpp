@@ -1,9 +1,9 @@
 #include "bench/runner/run_plan.hpp"
 
 #include <fmt/format.h>
-#include <string.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -182,12 +182,12 @@ class PlanRun {
   void say_what_is_here(const EarlierCases& earlier) {
     summary_.num_earlier = earlier.num_cases;
     if (earlier.num_cases == 0) return;
+    const bool is_one = earlier.num_cases == 1;
     progress_.note(fmt::format(
-        "{}: {} of earlier runs (suite {}) stay here and are in the report too; --out names "
+        "{}: {} {} of earlier runs (suite {}) {} here and {} in the report too; --out names "
         "another folder",
-        out_.string(),
-        earlier.num_cases == 1 ? "1 case" : fmt::format("{} cases", earlier.num_cases),
-        fmt::join(earlier.suites, ", ")));
+        out_.string(), earlier.num_cases, is_one ? "case" : "cases",
+        fmt::join(earlier.suites, ", "), is_one ? "stays" : "stay", is_one ? "is" : "are"));
   }
 
   Result<void> start(const std::vector<CaseSpec>& waiting) {

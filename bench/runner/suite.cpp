@@ -38,10 +38,10 @@ class Parser {
 
   Result<Suite> parse(const toml::table& table) {
     for (const auto& [key, node] : table) take_key(key.str(), node);
-    if (suite_.name.empty()) problem(table, "key \"name\" is missing");
-    if (suite_.systems.empty()) problem(table, "key \"systems\" is missing or empty");
+    if (suite_.name.empty()) problem(table, R"(key "name" is missing)");
+    if (suite_.systems.empty()) problem(table, R"(key "systems" is missing or empty)");
     if (suite_.scenarios.empty() && suite_.datasets.empty()) {
-      problem(table, "neither \"scenarios\" nor \"datasets\" names any data");
+      problem(table, R"(neither "scenarios" nor "datasets" names any data)");
     }
     check_overrides(table);
     if (problems_.empty()) return suite_;
@@ -77,7 +77,7 @@ class Parser {
     else if (key == "overrides")
       take_overrides(node);
     else
-      problem(node, fmt::format("unknown key \"{}\" (known: name description systems backends "
+      problem(node, fmt::format(R"(unknown key "{}" (known: name description systems backends )"
                                 "scenarios datasets first_seed num_seeds threads limits overrides)",
                                 key));
   }
@@ -99,7 +99,7 @@ class Parser {
     for (const toml::node& element : *array) {
       take_text(key, element, texts.emplace_back());
       if (std::count(texts.begin(), texts.end(), texts.back()) > 1) {
-        problem(element, fmt::format("{}: \"{}\" is given twice", key, texts.back()));
+        problem(element, fmt::format(R"({}: "{}" is given twice)", key, texts.back()));
       }
     }
     return texts;
@@ -150,7 +150,7 @@ class Parser {
         take_integer("limits.memory_mib", value, 1, suite_.limits.memory_mib);
       } else {
         problem(value,
-                fmt::format("unknown key \"limits.{}\" (known: time_s memory_mib)", key.str()));
+                fmt::format(R"(unknown key "limits.{}" (known: time_s memory_mib))", key.str()));
       }
     }
   }
@@ -191,7 +191,8 @@ class Parser {
         const Result<ParamValues> values = info->resolve(choice.profile, params);
         if (!values) problem(node == nullptr ? table : *node, values.error().to_line());
       }
-      const auto is_run = [&](const SystemChoice& choice) { return choice.system == system; };
+      const std::string& name = system;  // clang 14 captures no structured binding
+      const auto is_run = [&name](const SystemChoice& choice) { return choice.system == name; };
       if (std::none_of(suite_.systems.begin(), suite_.systems.end(), is_run)) {
         problem(node == nullptr ? table : *node,
                 fmt::format("overrides.{}: the suite does not run this system", system));

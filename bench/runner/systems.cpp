@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "baselines/dead_reckoning/dead_reckoning.hpp"
 #include "baselines/gmapping/gmapping_slam.hpp"
 #include "baselines/karto/karto_slam.hpp"
@@ -130,10 +132,8 @@ std::string names_of(const std::vector<T>& items) {
 }  // namespace
 
 bool SystemInfo::has_profile(std::string_view profile) const {
-  for (const ProfileInfo& info : profiles) {
-    if (info.name == profile) return true;
-  }
-  return false;
+  return std::any_of(profiles.begin(), profiles.end(),
+                     [profile](const ProfileInfo& info) { return info.name == profile; });
 }
 
 std::vector<SystemInfo> systems() {
@@ -152,7 +152,7 @@ Result<SystemInfo> find_system(std::string_view name) {
   for (const SystemInfo& info : all) {
     if (info.name == name) return info;
   }
-  return fail(ErrorCode::kNotFound, fmt::format("unknown system \"{}\"", name), "",
+  return fail(ErrorCode::kNotFound, fmt::format(R"(unknown system "{}")", name), "",
               "one of: " + names_of(all));
 }
 
@@ -167,7 +167,7 @@ Result<SystemChoice> parse_system_choice(std::string_view text) {
   const std::string_view profile = text.substr(at + 1);
   if (!info->has_profile(profile)) {
     return fail(ErrorCode::kNotFound,
-                fmt::format("unknown profile \"{}\" of system {}", profile, name), "",
+                fmt::format(R"(unknown profile "{}" of system {})", profile, name), "",
                 "one of: " + names_of(info->profiles));
   }
   return SystemChoice{std::string(name), std::string(profile)};

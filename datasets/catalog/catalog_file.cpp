@@ -65,7 +65,7 @@ class EntryReader {
       const auto path = file ? (*file)["path"].value<std::string>() : std::nullopt;
       const auto sha256 = file ? (*file)["sha256"].value<std::string>() : std::nullopt;
       if (!path || !sha256 || file->size() != 2) {
-        complain("files", "expected { path = \"...\", sha256 = \"...\" }");
+        complain("files", R"(expected { path = "...", sha256 = "..." })");
         continue;
       }
       if (sha256->size() != kSha256Digits ||

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <array>
+#include <cstddef>
 #include <fstream>
 #include <memory>
 #include <vector>
+
+#include "slam/core/expect.hpp"
 
 namespace corridor::catalog {
 namespace {
@@ -17,28 +19,48 @@ struct FreeDigest {
   void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
 
+// Takes bytes piece by piece. A libcrypto that knows no SHA-256 is a broken installation.
+class Hasher {
+ public:
+  Hasher() : context_(EVP_MD_CTX_new()) {
+    CORRIDOR_ENSURE(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+  }
+
+  void take(std::string_view bytes) {
+    CORRIDOR_ENSURE(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+  }
+
+  [[nodiscard]] Sha256 finish() {
+    Sha256 digest{};
+    CORRIDOR_ENSURE(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) == 1);
+    return digest;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, FreeDigest> context_;
+};
+
 }  // namespace
+
+Sha256 sha256_of(std::string_view bytes) {
+  Hasher hasher;
+  hasher.take(bytes);
+  return hasher.finish();
+}
+
+std::string to_hex(const Sha256& digest) { return fmt::format("{:02x}", fmt::join(digest, "")); }
 
 Result<std::string> sha256_of_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return fail(ErrorCode::kUnreadable, "cannot be read", path.string());
-  const std::unique_ptr<EVP_MD_CTX, FreeDigest> context(EVP_MD_CTX_new());
-  bool is_good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  Hasher hasher;
   std::vector<char> chunk(kChunkBytes);
-  while (is_good && file) {
+  while (file) {
     file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    const auto count = static_cast<std::size_t>(file.gcount());
-    is_good = EVP_DigestUpdate(context.get(), chunk.data(), count) == 1;
+    hasher.take({chunk.data(), static_cast<std::size_t>(file.gcount())});
   }
   if (file.bad()) return fail(ErrorCode::kUnreadable, "cannot be read to its end", path.string());
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (!is_good || EVP_DigestFinal_ex(context.get(), digest.data(), &length) != 1) {
-    return fail(ErrorCode::kInternal, "libcrypto cannot compute a SHA-256", path.string());
-  }
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
-  return text;
+  return to_hex(hasher.finish());
 }
 
 }  // namespace corridor::catalog

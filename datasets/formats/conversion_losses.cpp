@@ -38,7 +38,7 @@ class LossFinder {
     note(num_other_limits_,
          "scans lose a minimum range or a duration that differs from the robot "
          "model's");
-    if (log_.num_scans() > 0) lines_.push_back("scan angles are rounded to 32-bit floats");
+    if (log_.num_scans() > 0) lines_.emplace_back("scan angles are rounded to 32-bit floats");
     return std::move(lines_);
   }
 
@@ -67,7 +67,7 @@ class LossFinder {
     note(num_raw_ranges, "beams without return lose their raw range");
     note(num_at_limit, "beams of exactly the maximum range become beams without return");
     note(num_scans_alone, "scans without a wheel sample of their stamp get an interpolated one");
-    lines_.push_back("the robot model is left out, but for the LiDAR's pose and range");
+    lines_.emplace_back("the robot model is left out, but for the LiDAR's pose and range");
     return std::move(lines_);
   }
 

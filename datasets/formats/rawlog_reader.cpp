@@ -104,7 +104,7 @@ class RawlogParser {
 
   // The wheels' pose at a frame comes before the frame's first scan.
   Result<void> take_frame(const mrpt::obs::CSensoryFrame& frame) {
-    if (frame.size() == 0) return {};
+    if (frame.empty()) return {};
     const auto stamp = stamp_of_clock(frame.getObservationByIndex(0)->timestamp);
     if (!stamp) return tl::make_unexpected(stamp.error());
     if (pending_stamp_ || !has_frames_) log_.add(WheelSample{*stamp, T_odom_base_, {}}, offset_);

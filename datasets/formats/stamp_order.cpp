@@ -103,6 +103,7 @@ Result<void> check_stamp_order(const ParsedLog& log, const std::string& file) {
 std::size_t make_stamps_increase(std::vector<SensorEvent>& events) {
   std::vector<std::size_t> begins = row_begins(events);
   std::vector<std::int64_t> stamps_ns;
+  stamps_ns.reserve(begins.size());
   for (const std::size_t begin : begins) stamps_ns.push_back(stamp_of(events[begin]).nanoseconds);
   const std::vector<std::int64_t> fitted_ns = isotonic_stamps(stamps_ns, kMinStep_ns);
   begins.push_back(events.size());

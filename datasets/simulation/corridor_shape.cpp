@@ -27,8 +27,8 @@ void append_recess(const Segment& wall, double centre_m, std::vector<Vector2d>& 
   const Vector2d begin_m = wall.a_m + (centre_m - kDoorWidth_m / 2) * along;
   const Vector2d end_m = wall.a_m + (centre_m + kDoorWidth_m / 2) * along;
   corners_m.push_back(begin_m);
-  corners_m.push_back(begin_m + kDoorDepth_m * outward);
-  corners_m.push_back(end_m + kDoorDepth_m * outward);
+  corners_m.emplace_back(begin_m + kDoorDepth_m * outward);
+  corners_m.emplace_back(end_m + kDoorDepth_m * outward);
   corners_m.push_back(end_m);
 }
 

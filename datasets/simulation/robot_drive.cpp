@@ -42,8 +42,8 @@ void append_arm(const Vector2d& from_m, const Vector2d& to_m, const DriveParams&
   const int num_parts = params.num_arm_waypoints + 1;
   for (int i = 1; i <= num_parts; ++i) {
     const double offset_m = rng.uniform(-params.lateral_spread_m, params.lateral_spread_m);
-    waypoints_m.push_back(from_m + (to_m - from_m) * i / num_parts +
-                          offset_m * across(from_m, to_m));
+    waypoints_m.emplace_back(from_m + (to_m - from_m) * i / num_parts +
+                             offset_m * across(from_m, to_m));
   }
 }
 

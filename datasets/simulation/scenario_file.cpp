@@ -259,14 +259,14 @@ std::vector<fs::path> list_scenarios() {
 Result<fs::path> find_scenario(const std::string& name_or_path) {
   std::error_code error;
   const std::string file = parts_of(name_or_path).file;
-  std::string known;
+  std::vector<std::string> known;
   for (const fs::path& path : list_scenarios()) {
     if (path.stem() == file) return path;
-    known += (known.empty() ? "" : " ") + path.stem().string();
+    known.push_back(path.stem().string());
   }
   if (fs::is_regular_file(file, error)) return fs::path(file);
   return fail(ErrorCode::kNotFound, "no such scenario", name_or_path,
-              fmt::format("a file or one of {}", known));
+              fmt::format("a file or one of {}", fmt::join(known, " ")));
 }
 
 Result<std::vector<std::string>> scenario_members(const std::string& name_or_path) {

@@ -169,6 +169,7 @@ std::optional<Figure> error_figure(const Cases& cases, const std::string& datase
   if (!positive_range(position)) return std::nullopt;
   const double height_px = kRow_px * static_cast<double>(position.size());
   std::vector<std::string> labels;
+  labels.reserve(position.size());
   for (const Row& row : position) labels.push_back(row.label);
   const double label_px = label_column_px(labels);
   const double width_px = (kWidth_px - label_px - 2 * kGap_px) / 2;

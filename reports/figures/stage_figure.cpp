@@ -206,6 +206,7 @@ std::optional<Figure> stage_figure(const Cases& cases, const std::string& datase
   const auto range_ms = time_range_ms(groups);
   if (!range_ms) return std::nullopt;
   std::vector<std::string> labels;
+  labels.reserve(groups.size());
   for (const Group& group : groups) labels.push_back(group.label);
   const double label_px = label_column_px(labels);
   const double bottom_px = kTop_px + height_of(groups);

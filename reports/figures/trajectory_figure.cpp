@@ -1,6 +1,8 @@
 // Every system's final trajectory in one frame.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/escape.hpp"
 #include "reports/figures/report_figures.hpp"
 #include "reports/figures/scene.hpp"
@@ -10,9 +12,12 @@
 namespace corridor::figures {
 namespace {
 
-constexpr double kWidth_px = 960;
+constexpr double kPlotWidth_px = 690;
 constexpr double kHeight_px = 520;
-constexpr double kLegendWidth_px = 270;
+constexpr double kLegendGap_px = 16;
+constexpr double kLegendText_px = 44;  // from the line to its text
+constexpr double kMinLegendText_px = 210;
+constexpr double kMaxLegendText_px = 420;
 constexpr double kMargin_px = 24;
 constexpr double kLegendLine_px = 24;
 // A trajectory that runs away is cut here, so that the others stay legible.
@@ -66,18 +71,35 @@ Bounds frame_bounds(const World& world) {
   return bounds;
 }
 
-void draw_legend(Svg& svg, const World& world) {
-  const double x_px = kWidth_px - kLegendWidth_px + 16;
-  double y_px = 40;
-  const auto entry = [&](const SeriesStyle& style, const std::string& label) {
-    svg.line(x_px, y_px, x_px + 34, y_px, fmt::format("path line-{}", style.name));
-    svg.text(x_px + 44, y_px + 4, elided(label, kLegendWidth_px - 62));
-    y_px += kLegendLine_px;
-  };
-  entry(truth_style(), "truth");
+struct LegendEntry {
+  const SeriesStyle* style = nullptr;
+  std::string text;
+};
+
+std::vector<LegendEntry> legend_of(const World& world) {
+  std::vector<LegendEntry> entries = {{&truth_style(), "truth"}};
   for (const Drawn& drawn : world.estimates) {
-    entry(*drawn.style,
-          drawn.error_m ? fmt::format("{:.3f} m  {}", *drawn.error_m, drawn.label) : drawn.label);
+    entries.push_back({drawn.style, drawn.error_m
+                                        ? fmt::format("{}: {:.3f} m", drawn.label, *drawn.error_m)
+                                        : drawn.label});
+  }
+  return entries;
+}
+
+double legend_text_px(const std::vector<LegendEntry>& legend) {
+  double widest_px = kMinLegendText_px;
+  for (const LegendEntry& entry : legend)
+    widest_px = std::max(widest_px, text_width_px(entry.text));
+  return std::min(widest_px, kMaxLegendText_px);
+}
+
+void draw_legend(Svg& svg, const std::vector<LegendEntry>& legend) {
+  const double x_px = kPlotWidth_px + kLegendGap_px;
+  double y_px = 40;
+  for (const LegendEntry& entry : legend) {
+    svg.line(x_px, y_px, x_px + 34, y_px, fmt::format("path line-{}", entry.style->name));
+    svg.text(x_px + kLegendText_px, y_px + 4, elided(entry.text, legend_text_px(legend)));
+    y_px += kLegendLine_px;
   }
 }
 
@@ -89,21 +111,24 @@ std::optional<Figure> trajectory_figure(const reports::Cases& cases, const std::
   if (!representative) return std::nullopt;
   const World world = load_world(cases, representative->world, problems);
   if (world.estimates.empty()) return std::nullopt;
-  Svg svg("trajectories-" + reports::file_name_from(dataset), kWidth_px, kHeight_px,
+  const std::vector<LegendEntry> legend = legend_of(world);
+  const double height_px =
+      std::max(kHeight_px, kLegendLine_px * static_cast<double>(legend.size() + 2));
+  Svg svg("trajectories-" + reports::file_name_from(dataset),
+          kPlotWidth_px + kLegendGap_px + kLegendText_px + legend_text_px(legend), height_px,
           fmt::format("Trajectories on {}", dataset),
           fmt::format("Final trajectories of {} systems and the true path. {}",
                       world.estimates.size(), representative->reason));
-  const double plot_width_px = kWidth_px - kLegendWidth_px;
-  const PlaneFrame frame(frame_bounds(world), 0, 0, plot_width_px, kHeight_px, kMargin_px);
-  svg.begin_clip(0, 0, plot_width_px, kHeight_px);
+  const PlaneFrame frame(frame_bounds(world), 0, 0, kPlotWidth_px, height_px, kMargin_px);
+  svg.begin_clip(0, 0, kPlotWidth_px, height_px);
   if (world.walls) draw_walls(svg, frame, *world.walls, "wall");
   draw_path(svg, frame, world.truth_m, "path line-truth");
   for (const Drawn& drawn : world.estimates) {
     draw_path(svg, frame, drawn.points_m, fmt::format("path line-{}", drawn.style->name));
   }
-  draw_scale_bar(svg, frame, kMargin_px, kHeight_px - 16, plot_width_px);
+  draw_scale_bar(svg, frame, kMargin_px, height_px - 16, kPlotWidth_px);
   svg.end_group();
-  draw_legend(svg, world);
+  draw_legend(svg, legend);
   return Figure{std::move(svg), fmt::format("Final trajectories against the truth, first poses "
                                             "aligned, with each one's position error. {}",
                                             representative->reason)};

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
@@ -30,25 +32,25 @@ bool is_simulated(const Cases& cases) {
 
 // Rivals with the parameters their users get, and what was changed in others.
 void append_configuration(const Cases& cases, std::vector<std::string>& sentences) {
-  std::string shipped;
+  std::set<std::string> shipped;
   for (const Series& series : cases.series()) {
-    if (series.profile != "shipped") continue;
-    shipped += (shipped.empty() ? "" : ", ") + cases.label(series);
+    if (series.profile == "shipped") shipped.insert(series.system);
   }
   if (!shipped.empty()) {
-    sentences.push_back(
-        fmt::format("As shipped, with the parameters that users of the original programs get: {}. "
-                    "Anything else "
-                    "is named in the label. None of them was tuned for these data.",
-                    shipped));
+    sentences.push_back(fmt::format(
+        "Profile shipped is what users of the original programs get: {}. What else was "
+        "run is named in the label (a profile, or parameters where a system ran with "
+        "several sets); a parameter that a whole run set by hand shows only in the list "
+        "of parameters. No profile shipped was tuned for these data.",
+        fmt::join(shipped, ", ")));
   }
   if (has_system(cases, {"fusion"}) && is_simulated(cases)) {
-    sentences.push_back(
+    sentences.emplace_back(
         "fusion was developed on worlds of the same simulator, with other seeds than the suites'; "
         "no rival was adapted to it.");
   }
   if (has_system(cases, {"gmapping", "karto"})) {
-    sentences.push_back(
+    sentences.emplace_back(
         "gmapping and karto are reimplementations from papers and measured behaviour, not the "
         "original programs.");
   }
@@ -67,14 +69,14 @@ void append_world(const Cases& cases, std::vector<std::string>& sentences) {
 
 void append_sensors(const Cases& cases, std::vector<std::string>& sentences) {
   if (has_system(cases, {"fusion", "fusion-paper", "dead-reckoning-gyro"})) {
-    sentences.push_back(
+    sentences.emplace_back(
         "Only fusion, fusion-paper and dead-reckoning-gyro read the IMU; all others get wheels and "
         "LiDAR, as their programs do (dead-reckoning the wheels alone). dead-reckoning-gyro, "
         "wheels "
         "and gyro without LiDAR, is the floor: what it reaches owes nothing to scan matching.");
   }
   if (is_simulated(cases)) {
-    sentences.push_back(
+    sentences.emplace_back(
         "Simulator and estimators share the form of their error models (constant wheel scale, "
         "constant bias, white noise): systems that estimate these are favoured over what a real "
         "robot would give them.");
@@ -93,6 +95,18 @@ void append_statistics(const Cases& cases, std::vector<std::string>& sentences) 
   }
 }
 
+// What the runner noted about the scores, once for all cases that it holds for.
+void append_score_notes(const Cases& cases, std::vector<std::string>& sentences) {
+  std::map<std::pair<std::string, std::string>, int> num_cases;
+  for (const Case& entry : cases.all()) {
+    for (const std::string& note : entry.result.notes) ++num_cases[{entry.result.dataset, note}];
+  }
+  for (const auto& [key, num] : num_cases) {
+    sentences.push_back(
+        fmt::format("{}: {} ({} case{})", key.first, key.second, num, num == 1 ? "" : "s"));
+  }
+}
+
 void append_provenance(const Cases& cases, std::vector<std::string>& sentences) {
   std::set<std::string> revisions;
   for (const Case& entry : cases.all()) revisions.insert(entry.result.git_revision);
@@ -104,7 +118,7 @@ void append_provenance(const Cases& cases, std::vector<std::string>& sentences) 
   }
   if (std::any_of(revisions.begin(), revisions.end(),
                   [](const std::string& revision) { return revision.ends_with("+dirty"); })) {
-    sentences.push_back(
+    sentences.emplace_back(
         "A revision ending in +dirty had changes that no revision holds: these numbers cannot be "
         "made again from it with certainty.");
   }
@@ -119,7 +133,8 @@ std::vector<std::string> caveats(const Cases& cases) {
   append_world(cases, sentences);
   append_statistics(cases, sentences);
   for (const std::string& note : reports::timing_notes(cases))
-    sentences.push_back("Times: " + note);
+    sentences.push_back(fmt::format("Times: {}", note));
+  append_score_notes(cases, sentences);
   append_provenance(cases, sentences);
   return sentences;
 }

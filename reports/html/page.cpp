@@ -64,6 +64,8 @@ data verdict_list(const Cases& cases) {
     data item;
     item.set("subject", reports::valid_utf8(verdict.subject));
     item.set("sentences", text_list(verdict.sentences));
+    item.set("has_details", !verdict.details.empty());
+    item.set("details", text_list(verdict.details));
     list.push_back(item);
   }
   return list;

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "reports/escape.hpp"
 
@@ -68,7 +71,7 @@ Requests requests_of(const Cases& cases) {
                                        result.profile.empty() ? "" : "@",
                                        result.profile.empty() ? "" : shell_quoted(result.profile)));
     if (result.backend) request.backends[result.system].insert(shell_quoted(*result.backend));
-    request.datasets.insert(shell_quoted(result.dataset));
+    request.datasets.insert(shell_quoted(entry.dataset_given));
     if (result.data_seed) request.data_seeds.insert(*result.data_seed);
     request.system_seeds.insert(result.system_seed);
   }
@@ -111,6 +114,24 @@ std::string check_out(const std::string& revision) {
       shell_quoted(clean), is_dirty ? "   # plus changes that no revision holds" : "");
 }
 
+// Series that only their parameters tell apart; on one line each, whatever is in their names.
+std::vector<std::string> variants_by_hand(const Cases& cases) {
+  std::vector<std::string> labels;
+  const std::vector<reports::Series> all = cases.series();
+  for (const reports::Series& series : all) {
+    const bool has_twin = std::any_of(all.begin(), all.end(), [&](reports::Series other) {
+      const bool is_other_set = other.parameters_hash != series.parameters_hash;
+      other.parameters_hash = series.parameters_hash;
+      return is_other_set && other == series;
+    });
+    if (!has_twin) continue;
+    std::string label = cases.label(series);
+    std::replace(label.begin(), label.end(), '\n', ' ');
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
 }  // namespace
 
 std::string reproduce_commands(const Cases& cases) {
@@ -126,6 +147,9 @@ std::string reproduce_commands(const Cases& cases) {
       folders.insert(folder_name(suite));
     }
     text += "\n";
+  }
+  for (const std::string& label : variants_by_hand(cases)) {
+    text += fmt::format("# {}: a run of its own, with --set\n", label);
   }
   text += "corridor-bench report";
   for (const std::string& folder : folders) text += fmt::format(" {}", folder);

@@ -1,8 +1,10 @@
 #include "reports/html/verdict.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "reports/html/standing.hpp"
@@ -25,73 +27,108 @@ bool is_fusion(const Series& series) {
 // The floor: what wheels and gyro reach without a look at the LiDAR.
 bool is_floor(const Series& series) { return series.system == "dead-reckoning-gyro"; }
 
-void append_trajectory_verdicts(const Cases& cases, const std::string& dataset,
-                                std::vector<std::string>& sentences) {
+void append_trajectory_verdicts(const Cases& cases, Verdict& verdict) {
   for (const Metric& metric : {reports::position_error(), reports::angle_error()}) {
-    const std::vector<Entry> entries = entries_by_median(cases, dataset, metric);
+    const std::vector<Entry> entries = entries_by_median(cases, verdict.subject, metric);
     for (std::size_t index = 0; index < entries.size(); ++index) {
       const Series& series = entries[index].series;
       if (index > 0 && !is_fusion(series) && !is_floor(series)) continue;
-      sentences.push_back(standing(metric, entries, index));
+      const bool is_first_question = index == 0 || is_floor(series);
+      (is_first_question ? verdict.sentences : verdict.details)
+          .push_back(standing(metric, entries, index));
     }
   }
 }
 
-// "is too short: measured - true = -0.431 m [-0.450, -0.421], n = 8 of 8".
-std::string length_error(const Estimate& estimate) {
-  const bool is_clear = estimate.low && estimate.high && *estimate.low * *estimate.high > 0;
-  return fmt::format("{}: measured - true = {}, n = {} of {}",
-                     !estimate.low         ? "has too few worlds for a verdict"
-                     : !is_clear           ? "is not shown to be too short or too long"
-                     : estimate.median < 0 ? "is too short"
-                                           : "is too long",
-                     with_unit(estimate, "m"), estimate.n, estimate.of);
+using reports::KeyVariable;
+
+// What a length on a series' own map is off; nullopt where it was not run or has no such length.
+std::optional<tables::Cell> length_error(const Cases& cases, const std::string& dataset,
+                                         const Series& series, KeyVariable variable) {
+  using reports::MapKind;
+  const auto has_truth = [](const reports::Case* entry) {
+    return entry->result.own_map.key_distances.has_value();
+  };
+  const auto all = cases.of(dataset, series);
+  if (!std::any_of(all.begin(), all.end(), has_truth)) return std::nullopt;
+  Metric error = reports::key_measured(variable, MapKind::kOwn);
+  error.value = [measured = error.value, truth = reports::key_true(variable, MapKind::kOwn).value](
+                    const results::RunResult& result) -> std::optional<double> {
+    const auto m = measured(result);
+    const auto t = truth(result);
+    if (!m || !t) return std::nullopt;
+    return *m - *t;
+  };
+  tables::Cell cell = tables::summarise(cases, dataset, series, error, "not measurable");
+  const auto* missing = std::get_if<tables::Missing>(&cell);
+  if (missing != nullptr && missing->reason == "not run") return std::nullopt;
+  return cell;
 }
 
-// How long the corridor's arms become on the map: the subject of the paper's table 1.
-void append_map_verdicts(const Cases& cases, const std::string& dataset,
-                         std::vector<std::string>& sentences) {
-  using reports::KeyVariable;
-  using reports::MapKind;
+// What an interval shows of a length.
+const char* claim_of(const Estimate& estimate) {
+  if (!estimate.low || !estimate.high) return "has too few worlds for a verdict";
+  if (*estimate.low * *estimate.high <= 0) return "is not shown to be too short or too long";
+  return estimate.median < 0 ? "is too short" : "is too long";
+}
+
+// "On A's own map a is too short: measured - true = -0.431 m [-0.450, -0.421], n = 8 of 8; b ...".
+void append_map_details(const Cases& cases, Verdict& verdict) {
   for (const Series& series : cases.series()) {
     std::string parts;
     for (const KeyVariable variable : {KeyVariable::kA, KeyVariable::kB}) {
-      Metric error = reports::key_measured(variable, MapKind::kOwn);
-      error.value = [measured = error.value,
-                     truth = reports::key_true(variable, MapKind::kOwn).value](
-                        const results::RunResult& result) -> std::optional<double> {
-        const auto m = measured(result);
-        const auto t = truth(result);
-        if (!m || !t) return std::nullopt;
-        return *m - *t;
-      };
-      const tables::Cell cell = tables::summarise(cases, dataset, series, error, "not measurable");
-      const auto* estimate = std::get_if<Estimate>(&cell);
-      if (estimate == nullptr && std::get<tables::Missing>(cell).reason == "not run") continue;
-      parts +=
-          fmt::format("{}{} {}", parts.empty() ? "" : "; ", reports::name_of(variable),
-                      estimate == nullptr ? tables::plain_text(cell) : length_error(*estimate));
+      const auto cell = length_error(cases, verdict.subject, series, variable);
+      if (!cell) continue;
+      const auto* estimate = std::get_if<Estimate>(&*cell);
+      const std::string text =
+          estimate == nullptr
+              ? tables::plain_text(*cell)
+              : fmt::format("{}: measured - true = {}, n = {} of {}", claim_of(*estimate),
+                            with_unit(*estimate, "m"), estimate->n, estimate->of);
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : "; ", reports::name_of(variable), text);
     }
-    const auto has_truth = [&](const reports::Case* entry) {
-      return entry->result.own_map.key_distances.has_value();
-    };
-    const auto all = cases.of(dataset, series);
-    if (!parts.empty() && std::any_of(all.begin(), all.end(), has_truth)) {
-      sentences.push_back(fmt::format("On {}'s own map {}.", cases.label(series), parts));
+    if (!parts.empty()) {
+      verdict.details.push_back(fmt::format("On {}'s own map {}.", cases.label(series), parts));
     }
   }
 }
 
-void append_relation_verdict(const Cases& cases, const std::string& dataset,
-                             std::vector<std::string>& sentences) {
+// "On their own maps b (21 m) is too short for A (by 2.298 m) and B (by 0.362 m); is not shown to
+// be too short or too long for C." How the arms shrink is the subject of the paper's table 1.
+void append_map_verdict(const Cases& cases, KeyVariable variable, Verdict& verdict) {
+  std::map<std::string, std::vector<std::string>> names;
+  for (const Series& series : cases.series()) {
+    const auto cell = length_error(cases, verdict.subject, series, variable);
+    if (!cell) continue;
+    const auto* estimate = std::get_if<Estimate>(&*cell);
+    const std::string label = cases.label(series);
+    if (estimate == nullptr) {
+      names["is not measurable"].push_back(label);
+      continue;
+    }
+    const std::string claim = claim_of(*estimate);
+    const bool is_off = claim == "is too short" || claim == "is too long";
+    names[claim].push_back(
+        is_off ? fmt::format("{} (by {:.3f} m)", label, std::abs(estimate->median)) : label);
+  }
+  if (names.empty()) return;
+  std::string parts;
+  for (const auto& [claim, labels] : names) {
+    parts += fmt::format("{} {} for {}", parts.empty() ? "" : ";", claim, fmt::join(labels, ", "));
+  }
+  verdict.sentences.push_back(
+      fmt::format("On the systems' own maps, {}{}.", reports::name_of(variable), parts));
+}
+
+void append_relation_verdict(const Cases& cases, Verdict& verdict) {
   const Metric metric = reports::relation_translation_mean();
-  const std::vector<Entry> entries = entries_by_median(cases, dataset, metric);
+  const std::vector<Entry> entries = entries_by_median(cases, verdict.subject, metric);
   if (entries.empty()) return;
   const Entry& first = entries.front();
   const Entry& last = entries.back();
-  sentences.push_back(fmt::format("Mean relation error from {} ({}) to {} ({}), {} in all.",
-                                  with_unit(first.estimate, "m"), first.label,
-                                  with_unit(last.estimate, "m"), last.label, entries.size()));
+  verdict.sentences.push_back(fmt::format(
+      "Mean relation error from {} ({}) to {} ({}), {} in all.", with_unit(first.estimate, "m"),
+      first.label, with_unit(last.estimate, "m"), last.label, entries.size()));
 }
 
 // "karto on malaga: 1 of 3 timeout", for every series with a case that is not ok.
@@ -126,13 +163,15 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
 std::vector<Verdict> verdicts(const Cases& cases) {
   std::vector<Verdict> all;
   for (const std::string& dataset : cases.datasets()) {
-    Verdict verdict{dataset, {}};
-    append_trajectory_verdicts(cases, dataset, verdict.sentences);
-    append_map_verdicts(cases, dataset, verdict.sentences);
-    append_relation_verdict(cases, dataset, verdict.sentences);
+    Verdict verdict{dataset, {}, {}};
+    append_trajectory_verdicts(cases, verdict);
+    append_map_verdict(cases, KeyVariable::kA, verdict);
+    append_map_verdict(cases, KeyVariable::kB, verdict);
+    append_relation_verdict(cases, verdict);
+    append_map_details(cases, verdict);
     if (!verdict.sentences.empty()) all.push_back(std::move(verdict));
   }
-  all.push_back({"All cases", outcome_sentences(cases)});
+  all.push_back({"All cases", outcome_sentences(cases), {}});
   return all;
 }
 

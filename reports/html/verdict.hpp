@@ -11,11 +11,12 @@ namespace corridor::html {
 struct Verdict {
   std::string subject;  // a data set, or "All cases"
   std::vector<std::string> sentences;
+  std::vector<std::string> details;  // the same for everybody else, for those who ask
 };
 
-// Per data set: how the most accurate series, the fusion systems and the floor (wheels and gyro)
-// stand against every other one, which way each map is wrong; at the end which cases failed. Plain
-// text, to be escaped.
+// Per data set: how the most accurate series and the floor (wheels and gyro) stand against every
+// other one, and whose maps are too short or too long; in the details the fusion systems and every
+// map. At the end which cases failed. Plain text, to be escaped.
 std::vector<Verdict> verdicts(const reports::Cases& cases);
 
 }  // namespace corridor::html

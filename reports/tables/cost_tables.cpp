@@ -1,6 +1,7 @@
 // Where time and memory went.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -67,11 +68,11 @@ Metric stage_metric(std::string_view stage_name, const StageField& field) {
 
 bool has_stage(const Cases& cases, const std::string& dataset, const Series& series,
                std::string_view name) {
-  for (const Case* entry : cases.of(dataset, series)) {
+  const std::vector<const Case*> tried = cases.of(dataset, series);
+  return std::any_of(tried.begin(), tried.end(), [&](const Case* entry) {
     const StageTimes* stage = find_stage(entry->result, name);
-    if (stage != nullptr && stage->count > 0) return true;
-  }
-  return false;
+    return stage != nullptr && stage->count > 0;
+  });
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ std::vector<Series> series_on(const Cases& cases, const std::string& dataset) {
 std::vector<std::vector<Cell>> labelled_rows(const Cases& cases, const std::string& dataset,
                                              const std::vector<Series>& all) {
   std::vector<std::vector<Cell>> rows;
+  rows.reserve(all.size());
   for (const Series& series : all) rows.push_back({dataset, cases.label(series)});
   return rows;
 }
@@ -138,7 +139,7 @@ Table trajectory_error_table(const Cases& cases) {
   const std::vector<std::string> datasets = cases.datasets();
   if (std::any_of(datasets.begin(), datasets.end(),
                   [&](const std::string& dataset) { return is_paper_world(cases, dataset); })) {
-    table.notes.push_back(
+    table.notes.emplace_back(
         "The paper's values are from one run of its own simulation and robot; its method stands "
         "beside fusion-paper, our implementation of it.");
   }

@@ -83,6 +83,7 @@ std::vector<Cell> table1_row(const Cases& cases, const std::string& dataset, Map
   // The best of all is marked, also of those that this table has no column for.
   const std::vector<Series> all = cases.series();
   std::vector<WorldValues> errors;
+  errors.reserve(all.size());
   for (const Series& series : all) {
     errors.push_back(world_values(cases, dataset, series, key_absolute_error(variable, kind)));
   }

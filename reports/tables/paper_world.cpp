@@ -35,21 +35,23 @@ bool is_paper_world(const reports::Cases& cases, const std::string& dataset) {
                   [](const reports::Case* entry) { return !entry->result.data_seed; })) {
     return false;
   }
-  for (const auto& published : reports::kPaperTable1) {
-    const std::set<double> values = true_values(cases, dataset, published.variable);
-    if (values.empty() || std::abs(*values.begin() - published.true_value) > kSameWorld ||
-        std::abs(*values.rbegin() - published.true_value) > kSameWorld) {
-      return false;
-    }
-  }
-  return true;
+  return std::all_of(
+      reports::kPaperTable1.begin(), reports::kPaperTable1.end(), [&](const auto& published) {
+        const std::set<double> values = true_values(cases, dataset, published.variable);
+        return !values.empty() && std::abs(*values.begin() - published.true_value) <= kSameWorld &&
+               std::abs(*values.rbegin() - published.true_value) <= kSameWorld;
+      });
 }
 
 bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series) {
+  std::string first_profile;
+  std::set<std::string> hashes;
   for (const reports::Series& other : cases.series()) {
-    if (other.system == series.system) return other.profile == series.profile;
+    if (other.system != series.system) continue;
+    if (hashes.empty()) first_profile = other.profile;
+    if (other.profile == first_profile) hashes.insert(other.parameters_hash);
   }
-  return false;
+  return series.profile == first_profile && hashes.size() == 1;
 }
 
 }  // namespace corridor::tables

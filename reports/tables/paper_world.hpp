@@ -15,9 +15,9 @@ std::set<double> true_values(const reports::Cases& cases, const std::string& dat
 // All four key distances are the paper's in every world, and the suite itself simulated it: a log
 // of one's own has no data seed, whatever lies beside it.
 bool is_paper_world(const reports::Cases& cases, const std::string& dataset);
-
 // The paper's figures stand beside the profile of a system that comes first in reports (as
-// shipped), not beside variants of it.
+// shipped), not beside variants of it; beside none where that profile ran with several sets of
+// parameters, because no record says which of them was as shipped.
 bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series);
 
 }  // namespace corridor::tables

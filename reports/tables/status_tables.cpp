@@ -71,7 +71,7 @@ Table outcome_table(const Cases& cases) {
         const auto count = std::count_if(found.begin(), found.end(), [&](const Case* entry) {
           return entry->result.status == status;
         });
-        row.push_back(Number{static_cast<double>(count), 0});
+        row.emplace_back(Number{static_cast<double>(count), 0});
       }
       table.rows.push_back(std::move(row));
     }

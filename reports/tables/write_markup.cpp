@@ -26,7 +26,7 @@ std::string latex_column(ColumnKind kind) {
 }
 
 std::string latex_heading(const Column& column) {
-  const std::string heading = escape_latex(column.heading);
+  std::string heading = escape_latex(column.heading);
   if (column.kind == ColumnKind::kText) return heading;
   if (column.kind == ColumnKind::kNumber) return fmt::format("{{{}}}", heading);
   return fmt::format("\\multicolumn{{2}}{{c}}{{{}}}", heading);
@@ -49,7 +49,7 @@ std::string latex_cell(const Cell& cell, ColumnKind kind) {
   if (const auto* number = std::get_if<Number>(&cell)) {
     return number_text(number->value, number->decimals);
   }
-  const std::string text = escape_latex(plain_text(cell));
+  std::string text = escape_latex(plain_text(cell));
   if (kind == ColumnKind::kText) return text;
   if (kind == ColumnKind::kNumber) return fmt::format("{{{}}}", text);
   return fmt::format("\\multicolumn{{2}}{{c}}{{{}}}", text);

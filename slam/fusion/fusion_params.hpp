@@ -82,8 +82,10 @@ struct FusionParams {
 // matching between consecutive key scans, no wheel calibration, no loop closing.
 FusionParams fusion_paper_params();
 
+namespace detail {
+
 template <class V>
-void FusionParams::visit(FusionParams& p, V&& v) {
+void visit_structure(FusionParams& p, V& v) {
   using I = ParamInfo;
   v(I{"use_directional_degeneracy", "",
       "LiDAR factors only along the directions the scan constrains; false: the paper's scalar "
@@ -105,6 +107,11 @@ void FusionParams::visit(FusionParams& p, V&& v) {
   v(I{"coarse_resolution_m", "m", "cell of the coarse surfel grid", 0.05, 4},
     p.coarse_resolution_m);
   v(I{"submap_key_scans", "1", "key scans in a submap", 2, 1000}, p.submap_key_scans);
+}
+
+template <class V>
+void visit_sensors(FusionParams& p, V& v) {
+  using I = ParamInfo;
   v(I{"wheel_translation_floor_m", "m", "smallest standard deviation of a wheel displacement", 1e-5,
       1},
     p.wheel_translation_floor_m);
@@ -145,6 +152,11 @@ void FusionParams::visit(FusionParams& p, V&& v) {
     p.lidar_sigma_m);
   v(I{"lidar_sigma_rad", "rad", "the paper's LiDAR constraint: standard deviation", 1e-5, 1},
     p.lidar_sigma_rad);
+}
+
+template <class V>
+void visit_tracking(FusionParams& p, V& v) {
+  using I = ParamInfo;
   v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching", 1e-3, 10},
     p.match_prior_sigma_m);
   v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching", 1e-3, 3},
@@ -156,6 +168,11 @@ void FusionParams::visit(FusionParams& p, V&& v) {
     p.retry_inlier_ratio);
   v(I{"retry_window_m", "m", "half width of that window", 0, 10}, p.retry_window_m);
   v(I{"retry_window_rad", "rad", "half width of that window", 0, 3.2}, p.retry_window_rad);
+}
+
+template <class V>
+void visit_loops(FusionParams& p, V& v) {
+  using I = ParamInfo;
   v(I{"loop_min_path_m", "m", "path before a place can count as seen again", 1, 1e4},
     p.loop_min_path_m);
   v(I{"loop_interval_m", "m", "travel between two searches", 0.01, 100}, p.loop_interval_m);
@@ -174,6 +191,16 @@ void FusionParams::visit(FusionParams& p, V&& v) {
     p.loop_agreement_rad);
   v(I{"loop_gate", "1", "chi-square beyond which a closure is taken out after solving", 1, 1e6},
     p.loop_gate);
+}
+
+}  // namespace detail
+
+template <class V>
+void FusionParams::visit(FusionParams& p, V&& v) {
+  detail::visit_structure(p, v);
+  detail::visit_sensors(p, v);
+  detail::visit_tracking(p, v);
+  detail::visit_loops(p, v);
   matching::MatcherParams::visit(p.matcher, v);
   matching::ObservabilityParams::visit(p.observability, v);
   matching::CorrelativeParams::visit(p.correlative, v);

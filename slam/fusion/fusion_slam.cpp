@@ -161,7 +161,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     const auto stage = stage_clock().enter(Stage::kMatch);
     Submap& submap = local_map_.active();
     const Pose2& T_map_submap = estimate().pose(submap.origin_key());
-    const TrackedScan tracked =
+    TrackedScan tracked =
         track_scan(submap, points, T_map_submap.between(T_map_base_), prediction, robot_, params_,
                    num_refused_in_a_row_ < kMaxRefusedInARow);
     num_refused_in_a_row_ = tracked.is_refused ? num_refused_in_a_row_ + 1 : 0;

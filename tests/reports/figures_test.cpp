@@ -176,6 +176,9 @@ TEST(PaperCounterpart, IsTheShippedProfileOnly) {
   const reports::Cases cases(all, {}, {});
   EXPECT_TRUE(tables::is_paper_counterpart(cases, cases.series()[0]));
   EXPECT_FALSE(tables::is_paper_counterpart(cases, cases.series()[1]));
+  all[0].result.parameters_hash = "other";  // which of the two was as shipped?
+  const reports::Cases unclear(all, {}, {});
+  EXPECT_FALSE(tables::is_paper_counterpart(unclear, unclear.series()[0]));
 }
 
 TEST(RepresentativeWorld, IsTheOneOfKartosMedianError) {

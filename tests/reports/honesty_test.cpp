@@ -42,8 +42,24 @@ Cases make_cases(const std::vector<RunResult>& results) {
 
 TEST(TimingNotes, SayWhereTheNumberOfCasesAtATimeIsUnknown) {
   const Cases cases = make_cases(synthetic_results({{"karto", 0.06}}, 2));
-  if (jobs_of(cases.all().front().result)) GTEST_SKIP() << "the record knows";
   EXPECT_THAT(timing_notes(cases), ElementsAre(HasSubstr("not recorded for 2 of 2 cases")));
+}
+
+TEST(TimingNotes, WarnOfCasesThatRanBesideOthers) {
+  std::vector<RunResult> results = synthetic_results({{"karto", 0.06}}, 3);
+  results[0].jobs = 1;
+  results[1].jobs = 4;
+  EXPECT_THAT(
+      timing_notes(make_cases(results)),
+      ElementsAre(StartsWith("Warning: 1 of 3 cases ran beside others, up to 4 at a time")));
+}
+
+TEST(TimingNotes, SayThatCasesRanOneAtATimeOnlyIfAllDid) {
+  std::vector<RunResult> results = synthetic_results({{"karto", 0.06}}, 2);
+  results[0].jobs = 1;
+  EXPECT_THAT(timing_notes(make_cases(results)), ElementsAre(HasSubstr("not recorded for 1 of 2")));
+  results[1].jobs = 1;
+  EXPECT_THAT(timing_notes(make_cases(results)), ElementsAre("Cases ran one at a time."));
 }
 
 TEST(TimingNotes, WarnOfMixedMachinesAndThreads) {
@@ -101,7 +117,7 @@ TEST(Caveats, ClaimShippedParametersOnlyOfThoseThatHaveThem) {
     if (result.system == "karto") result.profile = "shipped";
   }
   EXPECT_THAT(html::caveats(make_cases(results)),
-              Contains(AllOf(StartsWith("As shipped"), HasSubstr("get: karto."))));
+              Contains(AllOf(StartsWith("Profile shipped"), HasSubstr("get: karto."))));
 }
 
 TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
@@ -109,6 +125,13 @@ TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
   EXPECT_THAT(html::caveats(make_cases(results)), Contains(HasSubstr("share the form")));
   for (RunResult& result : results) result.data_seed.reset();
   EXPECT_THAT(html::caveats(make_cases(results)), Not(Contains(HasSubstr("imulator"))));
+}
+
+TEST(Caveats, PassOnWhatTheRunnerNotedAboutTheScores) {
+  std::vector<RunResult> results = synthetic_results({{"fusion", 0.06}}, 3);
+  results[0].notes = results[2].notes = {"only 12 of 616 scans have a true pose"};
+  EXPECT_THAT(html::caveats(make_cases(results)),
+              Contains("synthetic-corridor: only 12 of 616 scans have a true pose (2 cases)"));
 }
 
 TEST(Caveats, NameMixedAndDirtyRevisions) {
@@ -129,6 +152,14 @@ TEST(Reproduce, GivesOneRunPerRevisionWithItsSystemsAndSeeds) {
                     HasSubstr("corridor-bench run synthetic --jobs 1 --seed 1 --seeds 3 --out "
                               "synthetic \\\n    --system karto@default \\\n    --dataset "
                               "synthetic-corridor\n")));
+}
+
+TEST(Reproduce, NamesVariantsThatWereSetByHand) {
+  std::vector<RunResult> results = synthetic_results({{"karto", 0.06}}, 2);
+  results[1].parameters["num_particles"] = "99";
+  results[1].parameters_hash = "fedcba";
+  EXPECT_THAT(html::reproduce_commands(make_cases(results)),
+              HasSubstr("# karto (num_particles=99): a run of its own, with --set\n"));
 }
 
 TEST(Reproduce, NamesSeedsThatAreNotConsecutive) {

@@ -61,6 +61,24 @@ TEST(Series, StaysOneOverWorldsAndSystemSeeds) {
             std::vector<std::string>{"karto"});
 }
 
+TEST(DataSets, OfOneNameButOtherContentAreNotPooled) {
+  RunResult first = karto_result(1);
+  first.data_digest = "aaaaaaaa1";
+  RunResult second = karto_result(1);
+  second.data_digest = "bbbbbbbb2";
+  const Cases cases = make_cases({first, second});
+  EXPECT_EQ(cases.datasets(), (std::vector<std::string>{"synthetic-corridor (#aaaaaa)",
+                                                        "synthetic-corridor (#bbbbbb)"}));
+  EXPECT_EQ(cases.all()[0].dataset_given, "synthetic-corridor");
+}
+
+TEST(DataSets, WhoseContentOneFailedCaseNeverSawStayOne) {
+  RunResult known = karto_result(1);
+  known.data_digest = "aaaaaaaa1";
+  const Cases cases = make_cases({known, karto_result(2)});
+  EXPECT_EQ(cases.datasets(), std::vector<std::string>{"synthetic-corridor"});
+}
+
 TEST(SeriesLabel, NamesTheParameterThatDiffers) {
   EXPECT_EQ(labels(make_cases({changed_result("30"), changed_result("99")})),
             (std::vector<std::string>{"karto (num_particles=30)", "karto (num_particles=99)"}));

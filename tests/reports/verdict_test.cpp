@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -29,6 +30,7 @@ std::vector<std::string> all_sentences(const Cases& cases) {
   std::vector<std::string> sentences;
   for (const html::Verdict& verdict : html::verdicts(cases)) {
     sentences.insert(sentences.end(), verdict.sentences.begin(), verdict.sentences.end());
+    sentences.insert(sentences.end(), verdict.details.begin(), verdict.details.end());
   }
   return sentences;
 }
@@ -113,6 +115,19 @@ TEST(Verdicts, OfOneSystemCompareNothing) {
 TEST(Verdicts, SayThatTheMapIsTooShort) {
   EXPECT_THAT(all_sentences(synthetic_cases(run_of({{"karto", 0.06, 0.01}}))),
               Contains(HasSubstr("b is too short: measured - true = -1.249 m")));
+}
+
+TEST(Verdicts, AnswerEachQuestionInOneSentenceAndKeepTheRestInTheDetails) {
+  const auto run = run_of({{"karto", 0.06, 0.01}, {"fusion-paper", 0.02, 0.01}, {"fusion", 0.01}});
+  const html::Verdict verdict = html::verdicts(synthetic_cases(run)).front();
+  EXPECT_THAT(verdict.sentences,
+              ElementsAre(StartsWith("The position error of fusion is"),
+                          StartsWith("The angle error of fusion is"),
+                          StartsWith("On the systems' own maps, a is too short for "),
+                          AllOf(StartsWith("On the systems' own maps, b is too short for "),
+                                HasSubstr("karto (by 1.249 m)"))));
+  EXPECT_THAT(verdict.details, Contains(StartsWith("The position error of fusion-paper is")));
+  EXPECT_THAT(verdict.details, Contains(StartsWith("On karto's own map a ")));
 }
 
 TEST(Verdicts, NameTheSystemWhoseCasesFailed) {

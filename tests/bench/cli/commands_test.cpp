@@ -159,7 +159,7 @@ TEST(Run, SaysWhatIsInItsFolderFromRunsBefore) {
   const Answer again = run_smoke(folder, "--system fusion-paper --out o --no-report");
   EXPECT_EQ(again.out.find("earlier runs"), std::string::npos) << "its cases are replaced";
   const Answer other = run_smoke(folder, "--system fusion-paper --seed 9 --out o --no-report");
-  EXPECT_NE(other.out.find("/o: 1 case of earlier runs (suite smoke) stay here"), std::string::npos)
+  EXPECT_NE(other.out.find("/o: 1 case of earlier runs (suite smoke) stays here"), std::string::npos)
       << other.out;
 }
 

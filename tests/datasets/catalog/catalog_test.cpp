@@ -57,6 +57,8 @@ TEST(Sha256, IsThatOfTheStandardsExamples) {
   EXPECT_EQ(*sha256_of_file(folder.write("abc", "abc")),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_FALSE(sha256_of_file(folder / "none").has_value());
+  EXPECT_FALSE(sha256_of_file(folder.path()).has_value()) << "a folder has no bytes";
+  EXPECT_EQ(to_hex(sha256_of("abc")), *sha256_of_file(folder / "abc"));
 }
 
 TEST(Catalog, OfTheSourceTreeIsValidAndHasEveryNameOfTheCommandLine) {
