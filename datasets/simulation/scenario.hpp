@@ -32,10 +32,11 @@ struct Scenario {
 std::vector<std::string> violations(const Scenario& scenario);
 
 // Reads a scenario. Keys not given keep their defaults, or the values of the scenario that the key
-// `base` names; a sensor's table may name a `preset` of datasets/scenarios/presets.toml, whose
-// values come before its own keys. [world] holds the corridor's keys or a drawing (world.hpp), or
-// names `map`, the yaml file of a ROS map beside the scenario, and a `route_m` through it. On
-// failure the Error lists ALL unknown keys, wrong types and broken rules, each with its line.
+// `base` names; a sensor's table may name a `preset` of datasets/scenarios/presets/sensors.toml,
+// whose values come before its own keys. [world] holds the corridor's keys or a drawing
+// (world.hpp), or names `map`, the yaml file of a ROS map beside the scenario, and a `route_m`
+// through it. On failure the Error lists ALL unknown keys, wrong types and broken rules, each with
+// its line.
 Result<Scenario> read_scenario(const std::filesystem::path& path);
 
 // Sets values by key, as "lidar.range_max_m" -> "6.0" or "world.alpha_deg" -> "80", and checks all.

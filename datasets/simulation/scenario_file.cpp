@@ -32,12 +32,15 @@ class ScenarioReader {
     read_text("name", scenario.name);
     read_text("description", scenario.description);
     read_world_section(scenario);
+    const bool is_world_read =
+        problems_.empty();  // else its rules would only repeat that it is not
     for_each_section(scenario, [&](const char* section, auto& params) {
+      if (std::string_view(section) == "world") return;
       known_.emplace_back(section);
-      if (std::string_view(section) != "world") read_section(section, params);
+      read_section(section, params);
     });
     find_unknown_keys(*document_, "", known_, problems_);
-    if (problems_.empty()) {
+    if (is_world_read) {
       for (std::string& line : violations(scenario)) {
         const std::uint32_t line_number = line_of_violation(line);
         problems_.push_back({line_number, std::move(line)});
@@ -57,7 +60,10 @@ class ScenarioReader {
                   fmt::format("more than {} scenarios on one another", kMaxBases), path_.string(),
                   "bases that do not go round in a circle");
     }
-    const Result<fs::path> base_path = find_scenario(base);
+    std::error_code error;
+    const fs::path beside = path_.parent_path() / base;
+    const Result<fs::path> base_path =
+        fs::is_regular_file(beside, error) ? Result<fs::path>(beside) : find_scenario(base);
     if (!base_path) return tl::make_unexpected(base_path.error());
     Result<Scenario> read = ScenarioReader(*base_path).read(std::move(scenario), num_bases + 1);
     if (!read) return tl::make_unexpected(read.error());
@@ -125,12 +131,8 @@ class ScenarioReader {
       problem(*node, fmt::format("{} is not a table; expected [{}]", section, section));
       return;
     }
-    toml::table rest = *table;
-    if (const toml::node* preset = rest.get("preset")) {
-      read_preset(section, *preset, params);
-      rest.erase("preset");
-    }
-    read_table(rest, section, MissingKeys::kKeepDefault, params, problems_);
+    if (const toml::node* preset = table->get("preset")) read_preset(section, *preset, params);
+    read_table(*table, section, MissingKeys::kKeepDefault, params, problems_, {"preset"});
   }
 
   template <class P>
@@ -153,9 +155,7 @@ class ScenarioReader {
                                 fmt::join(names_in(of_section), " ")));
       return;
     }
-    toml::table values = *preset;
-    for (const char* key : {"title", "source"}) values.erase(key);
-    read_table(values, section, MissingKeys::kKeepDefault, params, problems_);
+    read_table(*preset, section, MissingKeys::kKeepDefault, params, problems_, {"title", "source"});
   }
 
   static fs::path presets_path() {

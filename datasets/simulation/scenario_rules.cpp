@@ -53,10 +53,17 @@ std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
   return shapes;
 }
 
+// The path on which the robot comes to rest: its brakes hold no better than the floor.
+double braking_path_m(const DriveParams& drive) {
+  const double braking_mps2 = drive.friction_limit_mps2 > 0
+                                  ? std::min(drive.acceleration_mps2, drive.friction_limit_mps2)
+                                  : drive.acceleration_mps2;
+  return drive.speed_max_mps * drive.speed_max_mps / (2 * braking_mps2);
+}
+
 // Room beside a route through the corridor of this shape.
 double free_width_m(const CorridorShape& shape, const DriveParams& drive) {
-  const double braking_m =
-      drive.speed_max_mps * drive.speed_max_mps / (2 * drive.acceleration_mps2);
+  const double braking_m = braking_path_m(drive);
   return 0.5 * shape.c_m - std::max(drive.start_spread_m, drive.lateral_spread_m) -
          std::max(0.0, braking_m - drive.waypoint_reach_m);
 }
@@ -129,8 +136,7 @@ void check_corridor(const Scenario& scenario, std::vector<std::string>& found) {
 
 void check_drawing(const Scenario& scenario, std::vector<std::string>& found) {
   const DriveParams& drive = scenario.drive;
-  const double braking_m =
-      drive.speed_max_mps * drive.speed_max_mps / (2 * drive.acceleration_mps2);
+  const double braking_m = braking_path_m(drive);
   const double clearance_m = kClearance_m + std::max(drive.start_spread_m, drive.lateral_spread_m) +
                              std::max(0.0, braking_m - drive.waypoint_reach_m);
   for (std::string& line : violations(scenario.world, clearance_m)) {

@@ -41,7 +41,7 @@ struct LidarParams {
   double scan_duration_s = 0;
   double time_offset_s = 0;
   double time_offset_sigma_s = 0;
-  MessageParams message;
+  MessageParams message = {};
 
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"rate_hz", "Hz", "scans per second; a whole multiple of it is the IMU's rate", 0.1,
@@ -102,7 +102,7 @@ struct WheelParams {
   double scale_sigma = 0.01;
   double unbalance_sigma = 0.005;
   double track_sigma = 0;
-  MessageParams message;
+  MessageParams message = {};
 
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"rate_hz", "Hz", "samples per second; a whole fraction of the IMU's rate", 0.1,
@@ -147,7 +147,7 @@ struct ImuParams {
   double tilt_length_m = 2;
   double vibration_mps2 = 0;
   double time_offset_sigma_s = 0;
-  MessageParams message;
+  MessageParams message = {};
 
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"rate_hz", "Hz",

@@ -18,7 +18,7 @@ bool meets_any(const SlipInterval& slip, const std::vector<SlipInterval>& slips)
 
 int number_of(const SlipParams& params, double drive_s) {
   if (params.share == 0) return params.num_slips;
-  return static_cast<int>(params.share * drive_s / params.duration_s);
+  return static_cast<int>(std::lround(params.share * drive_s / params.duration_s));
 }
 
 }  // namespace
@@ -53,8 +53,10 @@ void append_friction_slips(const Drive& drive, std::vector<SlipInterval>& slips)
     }
     is_open = is_slipping;
     if (!is_slipping) continue;
-    wheel_m += std::abs(state.wheel_speed_mps) * drive.step_s;
-    robot_m += std::abs(state.speed_mps) * drive.step_s;
+    const DriveState& before = drive.states[k - 1];
+    wheel_m +=
+        0.5 * (std::abs(before.wheel_speed_mps) + std::abs(state.wheel_speed_mps)) * drive.step_s;
+    robot_m += 0.5 * (std::abs(before.speed_mps) + std::abs(state.speed_mps)) * drive.step_s;
     found.back().end_s = static_cast<double>(k) * drive.step_s;
     found.back().ratio = robot_m > 0 ? wheel_m / robot_m - 1 : 0;
   }

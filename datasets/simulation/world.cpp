@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "slam/core/expect.hpp"
 
@@ -49,7 +51,15 @@ void check_surfaces(const World& world, std::vector<std::string>& found) {
 }
 
 void check_materials(const World& world, std::vector<std::string>& found) {
+  std::set<std::string> names;
   for (const Material& material : world.materials) {
+    // Surfaces name their material, and the name is written into quotes.
+    if (material.name.empty() || material.name.find_first_of("\"\\\n\r\t") != std::string::npos ||
+        !names.insert(material.name).second) {
+      found.push_back(
+          fmt::format("world: material \"{}\"; expected a name that no other has, without quotes",
+                      material.name));
+    }
     if (!(material.range_factor > 0 && material.range_factor <= 1)) {
       found.push_back(fmt::format("world: material {} has range_factor = {}; expected (0, 1]",
                                   material.name, material.range_factor));

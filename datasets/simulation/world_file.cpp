@@ -97,10 +97,10 @@ class DrawingReader {
     world_.materials.push_back(read.material);
   }
 
-  void add_polygon(toml::table row) {
-    std::vector<Vector2d> points_m = take_points(row, "points_m", "world.polygons");
+  void add_polygon(const toml::table& row) {
+    std::vector<Vector2d> points_m = points_of(row, "points_m", "world.polygons");
     PolygonRow read;
-    read_table(row, "world.polygons", MissingKeys::kKeepDefault, read, problems_);
+    read_table(row, "world.polygons", MissingKeys::kKeepDefault, read, problems_, {"points_m"});
     if (points_m.size() < 2) {
       problem(row, "world.polygons: expected at least two points in points_m");
       return;
@@ -113,30 +113,25 @@ class DrawingReader {
     }
   }
 
-  void add_arc(toml::table row) {
+  void add_arc(const toml::table& row) {
     Vector2d centre_m = Vector2d::Zero();
     if (const toml::node* node = row.get("centre_m")) {
       centre_m = read_point(*node, "world.arcs.centre_m", problems_);
-      row.erase("centre_m");
     } else {
       problem(row, "world.arcs.centre_m is missing; expected [x, y]");
     }
     ArcRow read;
-    read_table(row, "world.arcs", MissingKeys::kKeepDefault, read, problems_);
+    read_table(row, "world.arcs", MissingKeys::kKeepDefault, read, problems_, {"centre_m"});
     world_.arcs.push_back(
         {centre_m, read.radius_m, read.begin_deg * kRadPerDeg, read.sweep_deg * kRadPerDeg});
     materials_of_arcs_.push_back(material_index(row, read.material));
   }
 
-  // Takes the points out, so that read_table() sees only plain keys.
-  std::vector<Vector2d> take_points(toml::table& row, std::string_view key,
-                                    std::string_view section) {
+  std::vector<Vector2d> points_of(const toml::table& row, std::string_view key,
+                                  std::string_view section) {
     const toml::node* node = row.get(key);
     if (node == nullptr) return {};
-    std::vector<Vector2d> points_m =
-        read_points(*node, fmt::format("{}.{}", section, key), problems_);
-    row.erase(key);
-    return points_m;
+    return read_points(*node, fmt::format("{}.{}", section, key), problems_);
   }
 
   std::uint8_t material_index(const toml::node& row, const std::string& name) {
