@@ -38,10 +38,11 @@ Result<fs::path> this_program() {
 
 // Simulated data are named like recorded ones, by the file or name of their scenario.
 bool is_scenario(const std::string& dataset) {
-  if (fs::path(dataset).extension() == ".toml") return true;
+  const std::string file = dataset.substr(0, dataset.rfind('@'));  // without a family's member
+  if (fs::path(file).extension() == ".toml") return true;
   const std::vector<fs::path> paths = simulation::list_scenarios();
   return std::any_of(paths.begin(), paths.end(),
-                     [&dataset](const fs::path& path) { return path.stem() == dataset; });
+                     [&](const fs::path& path) { return path.stem() == file; });
 }
 
 void replace_data(const std::vector<std::string>& datasets, runner::Suite& suite) {

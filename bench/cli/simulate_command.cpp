@@ -68,9 +68,7 @@ Result<ExitCode> SimulateCommand::run() const {
   if (const Result<void> good = check_targets(files_of(out)); !good) {
     return tl::make_unexpected(good.error());
   }
-  const Result<fs::path> path = simulation::find_scenario(scenario);
-  if (!path) return tl::make_unexpected(path.error());
-  const Result<simulation::Scenario> read = simulation::read_scenario(*path);
+  const Result<simulation::Scenario> read = simulation::load_scenario(scenario);
   if (!read) return tl::make_unexpected(read.error());
   const simulation::Simulated simulated = simulation::simulate(*read, *drawn_from);
   if (const Result<void> written = write_all(simulated, out); !written) {

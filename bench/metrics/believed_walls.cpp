@@ -49,12 +49,10 @@ std::vector<BelievedPoint> believe_walls(std::span<const MatchedPose> pairs,
     for (const std::uint32_t i : sightings[k]) {
       believed_m.push_back(T_map_world[i] * samples[k].point_world_m);
     }
-    const simulation::Segment& wall = world.walls[samples[k].wall_index];
-    const Eigen::Vector2d along = (wall.b_m - wall.a_m).normalized();
     // Across the wall as the middle sighting turned it.
     const Eigen::Vector2d across_map =
         T_map_world[sightings[k][sightings[k].size() / 2]].rotation() *
-        Eigen::Vector2d(-along.y(), along.x());
+        world.normal(samples[k].surface_index, samples[k].point_world_m);
     points.push_back({samples[k].point_world_m, median_point_m(believed_m),
                       half_spread(project(believed_m, across_map))});
   }

@@ -25,13 +25,21 @@ bool is_visible(const simulation::RayCaster& caster, const Eigen::Vector2d& from
 
 std::vector<WallPoint> sample_walls(const simulation::World& world, double spacing_m) {
   std::vector<WallPoint> points;
-  for (std::size_t wall_index = 0; wall_index < world.walls.size(); ++wall_index) {
-    const simulation::Segment& wall = world.walls[wall_index];
-    const auto num_pieces = static_cast<int>(std::ceil(wall.length_m() / spacing_m));
-    for (int i = 0; i < num_pieces; ++i) {
-      const double ratio = (i + 0.5) / num_pieces;
-      points.push_back({wall.a_m + ratio * (wall.b_m - wall.a_m), wall_index});
-    }
+  const auto append = [&](double length_m, const auto& point_at) {
+    const auto num_pieces = static_cast<int>(std::ceil(length_m / spacing_m));
+    for (int i = 0; i < num_pieces; ++i) points.push_back(point_at((i + 0.5) / num_pieces));
+  };
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const simulation::Segment& wall = world.walls[i];
+    append(wall.length_m(), [&](double ratio) {
+      return WallPoint{wall.a_m + ratio * (wall.b_m - wall.a_m), i};
+    });
+  }
+  for (std::size_t i = 0; i < world.arcs.size(); ++i) {
+    const simulation::Arc& arc = world.arcs[i];
+    append(arc.length_m(), [&](double ratio) {
+      return WallPoint{arc.point_m(ratio), world.walls.size() + i};
+    });
   }
   return points;
 }

@@ -16,7 +16,7 @@ namespace corridor::metrics {
 
 struct WallPoint {
   Eigen::Vector2d point_world_m = Eigen::Vector2d::Zero();
-  std::size_t wall_index = 0;  // into World::walls
+  std::size_t surface_index = 0;  // as World counts them
 };
 
 // Every wall is cut into equal pieces of at most spacing_m (> 0); their midpoints. A wall without

@@ -15,9 +15,7 @@ namespace corridor::runner {
 namespace {
 
 Result<CaseData> simulated_data(const CaseSpec& spec) {
-  const Result<std::filesystem::path> path = simulation::find_scenario(spec.data_source);
-  if (!path) return tl::make_unexpected(path.error());
-  const Result<simulation::Scenario> scenario = simulation::read_scenario(*path);
+  const Result<simulation::Scenario> scenario = simulation::load_scenario(spec.data_source);
   if (!scenario) return tl::make_unexpected(scenario.error());
   simulation::Simulated simulated = simulation::simulate(*scenario, spec.data_seed.value_or(1));
   CaseData data;
@@ -36,7 +34,7 @@ Result<CaseData> recorded_data(const CaseSpec& spec, const catalog::DataDirs& di
   if (loaded->world_file) {
     Result<simulation::SimulationTruth> truth = simulation::read_truth(*loaded->world_file);
     if (!truth) return tl::make_unexpected(truth.error());
-    data.world = simulation::make_corridor(truth->world);
+    data.world = truth->world;
     data.simulation_truth = std::move(*truth);
   }
   return data;

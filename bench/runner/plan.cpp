@@ -20,17 +20,18 @@ std::string absolute_source(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
+// `source` is a plain scenario or one member of a family.
 Result<DataItem> scenario_item(const std::string& source) {
   const Result<std::filesystem::path> path = simulation::find_scenario(source);
   if (!path) return tl::make_unexpected(path.error());
-  const Result<simulation::Scenario> scenario = simulation::read_scenario(*path);
+  const Result<simulation::Scenario> scenario = simulation::load_scenario(source);
   if (!scenario) return tl::make_unexpected(scenario.error());
-  const bool is_path = std::filesystem::path(source).extension() == ".toml";
-  std::string values;
+  const bool is_path = path->stem() != source.substr(0, source.rfind('@'));
+  std::string values = simulation::world_toml(scenario->world);
   for (const auto& [key, value] : simulation::scenario_values(*scenario)) {
     values += fmt::format("{} = {}\n", key, value);
   }
-  return DataItem{DataKind::kSimulated, scenario->name, is_path ? absolute_source(*path) : source,
+  return DataItem{DataKind::kSimulated, scenario->name, is_path ? absolute_source(source) : source,
                   results::short_digest(values), true};
 }
 
@@ -48,9 +49,13 @@ class Planner {
 
   Result<Plan> plan(const catalog::DataDirs& dirs) {
     for (const std::string& source : suite_.scenarios) {
-      const Result<DataItem> item = scenario_item(source);
-      if (!item) return tl::make_unexpected(item.error());
-      items_.push_back(*item);
+      const Result<std::vector<std::string>> members = simulation::scenario_members(source);
+      if (!members) return tl::make_unexpected(members.error());
+      for (const std::string& member : *members) {
+        const Result<DataItem> item = scenario_item(member);
+        if (!item) return tl::make_unexpected(item.error());
+        items_.push_back(*item);
+      }
     }
     for (const std::string& source : suite_.datasets) {
       const Result<DataItem> item = dataset_item(source, dirs);

@@ -22,15 +22,10 @@ double line_angle(const Eigen::Vector2d& direction) {
 
 }  // namespace
 
-std::optional<double> degenerate_direction_rad(std::span<const std::optional<RayCaster::Hit>> hits,
-                                               const World& world) {
+std::optional<double> degenerate_direction_rad(std::span<const std::optional<BeamHit>> hits) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  // order (x, y) of the world
   for (const auto& hit : hits) {
-    if (!hit) continue;
-    const Segment& wall = world.walls[hit->wall_index];
-    const Eigen::Vector2d along = (wall.b_m - wall.a_m).normalized();
-    const Eigen::Vector2d normal(-along.y(), along.x());
-    information += normal * normal.transpose();
+    if (hit && !hit->is_person) information += hit->normal * hit->normal.transpose();
   }
   if (information.trace() == 0) return 0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(information);  // ascending

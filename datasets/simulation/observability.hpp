@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "datasets/simulation/ray_casting.hpp"
+#include "datasets/simulation/lidar_model.hpp"
 #include "datasets/simulation/truth.hpp"
 #include "slam/core/timestamp.hpp"
 
@@ -19,9 +19,8 @@ namespace corridor::simulation {
 inline constexpr double kDegenerateShare = 0.02;
 
 // World direction in [0, pi) that the scan leaves free; nullopt if it fixes both. No hit at all
-// leaves everything free and names direction 0.
-std::optional<double> degenerate_direction_rad(std::span<const std::optional<RayCaster::Hit>> hits,
-                                               const World& world);
+// leaves everything free and names direction 0. People count for nothing: they do not stay.
+std::optional<double> degenerate_direction_rad(std::span<const std::optional<BeamHit>> hits);
 
 // Joins consecutive scans that leave the same direction free (within one degree).
 class DegenerateIntervals {

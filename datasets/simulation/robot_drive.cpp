@@ -57,23 +57,53 @@ double approach(double value, double target, double max_change) {
   return value + std::clamp(target - value, -max_change, max_change);
 }
 
-DriveState next_state(const DriveState& state, const Vector2d& waypoint_m, double cruise_mps,
-                      const DriveParams& params, double step_s) {
+struct Command {
+  double speed_mps = 0;
+  double yaw_rate_radps = 0;
+};
+
+Command towards(const DriveState& state, const Vector2d& waypoint_m, double cruise_mps,
+                const DriveParams& params) {
   const Vector2d to_waypoint = waypoint_m - state.T_world_base.translation_m();
   const double heading_error_rad =
       wrap_angle(std::atan2(to_waypoint.y(), to_waypoint.x()) - state.T_world_base.theta_rad());
   const bool is_turning = std::abs(heading_error_rad) > params.turn_in_place_deg * kRadPerDeg;
-  const double target_radps = std::clamp(params.heading_gain_per_s * heading_error_rad,
-                                         -params.yaw_rate_max_radps, params.yaw_rate_max_radps);
+  return {is_turning ? 0 : cruise_mps,
+          std::clamp(params.heading_gain_per_s * heading_error_rad, -params.yaw_rate_max_radps,
+                     params.yaw_rate_max_radps)};
+}
+
+// The wheels follow the command, the robot follows its wheels as far as the floor's grip allows.
+DriveState next_state(const DriveState& state, const Command& command, const DriveParams& params,
+                      double step_s) {
   DriveState next;
-  next.speed_mps =
-      approach(state.speed_mps, is_turning ? 0 : cruise_mps, params.acceleration_mps2 * step_s);
-  next.yaw_rate_radps =
-      approach(state.yaw_rate_radps, target_radps, params.yaw_acceleration_radps2 * step_s);
+  next.wheel_speed_mps =
+      approach(state.wheel_speed_mps, command.speed_mps, params.acceleration_mps2 * step_s);
+  next.speed_mps = params.friction_limit_mps2 > 0 ? approach(state.speed_mps, next.wheel_speed_mps,
+                                                             params.friction_limit_mps2 * step_s)
+                                                  : next.wheel_speed_mps;
+  next.yaw_rate_radps = approach(state.yaw_rate_radps, command.yaw_rate_radps,
+                                 params.yaw_acceleration_radps2 * step_s);
   const double path_m = 0.5 * (state.speed_mps + next.speed_mps) * step_s;
   const double turn_rad = 0.5 * (state.yaw_rate_radps + next.yaw_rate_radps) * step_s;
   next.T_world_base = state.T_world_base.plus({path_m, 0, turn_rad});
   return next;
+}
+
+// Turns by an angle and comes to rest: brakes where the braking angle is all that is left.
+void turn_on_the_spot(double angle_rad, const DriveParams& params, Drive& drive) {
+  const double sign = angle_rad < 0 ? -1 : 1;
+  double left_rad = std::abs(angle_rad);
+  const double step_radps = params.yaw_acceleration_radps2 * drive.step_s;
+  while (left_rad > 0 || std::abs(drive.states.back().yaw_rate_radps) > 0) {
+    const double rate_radps = std::abs(drive.states.back().yaw_rate_radps);
+    const double braking_rad = rate_radps * rate_radps / (2 * params.yaw_acceleration_radps2);
+    const double wanted_radps =
+        left_rad > braking_rad ? params.yaw_rate_max_radps : std::max(0.0, rate_radps - step_radps);
+    drive.states.push_back(
+        next_state(drive.states.back(), {0, sign * wanted_radps}, params, drive.step_s));
+    left_rad -= 0.5 * (rate_radps + std::abs(drive.states.back().yaw_rate_radps)) * drive.step_s;
+  }
 }
 
 double straight_length_m(const DrivePlan& plan) {
@@ -88,34 +118,83 @@ double straight_length_m(const DrivePlan& plan) {
 
 }  // namespace
 
-DrivePlan draw_plan(const CorridorShape& shape, const DriveParams& params, Rng rng) {
-  const CentreLine line = centre_line(shape, params.end_margin_m);
+namespace {
+
+// Start at the line's first point and heading, speed, all drawn around the parameters.
+struct Start {
+  Pose2 T_world_base;
+  double speed_mps;
+};
+
+Start draw_start(const Vector2d& from_m, double heading_rad, const DriveParams& params,
+                 const Rng& rng) {
   Rng start = rng.stream("start");
   Rng speed = rng.stream("speed");
-  Rng lateral = rng.stream("lateral");
-  const double x_m =
-      line.start_m.x() + start.uniform(-params.start_spread_m, params.start_spread_m);
-  const double y_m =
-      line.start_m.y() + start.uniform(-params.start_spread_m, params.start_spread_m);
+  const double x_m = from_m.x() + start.uniform(-params.start_spread_m, params.start_spread_m);
+  const double y_m = from_m.y() + start.uniform(-params.start_spread_m, params.start_spread_m);
   const double heading_deg = start.uniform(-params.heading_spread_deg, params.heading_spread_deg);
+  return {Pose2(x_m, y_m, heading_rad + heading_deg * kRadPerDeg),
+          speed.uniform(params.speed_min_mps, params.speed_max_mps)};
+}
 
-  DrivePlan plan;
-  plan.T_world_base_start = Pose2(x_m, y_m, heading_deg * kRadPerDeg);
-  plan.speed_mps = speed.uniform(params.speed_min_mps, params.speed_max_mps);
-  append_arm(line.start_m, line.corner_m, params, lateral, plan.waypoints_m);
+void append_corridor_route(const CorridorShape& shape, const DriveParams& params, Rng lateral,
+                           std::vector<Vector2d>& waypoints_m) {
+  const CentreLine line = centre_line(shape, params.end_margin_m);
+  append_arm(line.start_m, line.corner_m, params, lateral, waypoints_m);
   // The corner's waypoint is drawn across both arms.
-  plan.waypoints_m.back() += lateral.uniform(-params.lateral_spread_m, params.lateral_spread_m) *
-                             across(line.corner_m, line.end_m);
-  append_arm(line.corner_m, line.end_m, params, lateral, plan.waypoints_m);
-  if (params.is_return_trip) append_way_back({x_m, y_m}, plan.waypoints_m);
+  waypoints_m.back() += lateral.uniform(-params.lateral_spread_m, params.lateral_spread_m) *
+                        across(line.corner_m, line.end_m);
+  append_arm(line.corner_m, line.end_m, params, lateral, waypoints_m);
+}
+
+// A corner's waypoint moves by one drawn offset across the leg before it and one across that after.
+void append_drawn_route(const std::vector<Vector2d>& route_m, const DriveParams& params,
+                        Rng lateral, std::vector<Vector2d>& waypoints_m) {
+  for (std::size_t i = 1; i < route_m.size(); ++i) {
+    append_arm(route_m[i - 1], route_m[i], params, lateral, waypoints_m);
+    if (i + 1 == route_m.size()) break;
+    waypoints_m.back() += lateral.uniform(-params.lateral_spread_m, params.lateral_spread_m) *
+                          across(route_m[i], route_m[i + 1]);
+  }
+}
+
+}  // namespace
+
+std::vector<Vector2d> route_of(const World& world, const DriveParams& params) {
+  if (!world.corridor) return world.route_m;
+  const CentreLine line = centre_line(*world.corridor, params.end_margin_m);
+  return {line.start_m, line.corner_m, line.end_m};
+}
+
+DrivePlan draw_plan(const World& world, const DriveParams& params, Rng rng) {
+  const std::vector<Vector2d> route_m = route_of(world, params);
+  CORRIDOR_EXPECT(!route_m.empty() && (params.stays || route_m.size() >= 2));
+  const Vector2d first_leg =
+      route_m.size() >= 2 ? Vector2d(route_m[1] - route_m[0]) : Vector2d(1, 0);
+  const Start start =
+      draw_start(route_m.front(), std::atan2(first_leg.y(), first_leg.x()), params, rng);
+  DrivePlan plan{start.T_world_base, {}, start.speed_mps};
+  if (params.stays) return plan;
+  if (world.corridor) {
+    append_corridor_route(*world.corridor, params, rng.stream("lateral"), plan.waypoints_m);
+  } else {
+    append_drawn_route(route_m, params, rng.stream("lateral"), plan.waypoints_m);
+  }
+  if (params.is_return_trip) {
+    append_way_back(start.T_world_base.translation_m(), plan.waypoints_m);
+  }
   return plan;
 }
 
 Drive drive_along(const DrivePlan& plan, const DriveParams& params, double step_s) {
   CORRIDOR_EXPECT(step_s > 0 && plan.speed_mps > 0);
+  Drive drive{
+      .step_s = step_s, .states = {{plan.T_world_base_start, 0, 0, 0}}, .is_complete = false};
+  const auto num_still = static_cast<std::size_t>(std::llround(params.stand_s / step_s));
+  drive.states.resize(1 + num_still, drive.states.front());
+  turn_on_the_spot(2 * std::numbers::pi * params.spin_turns, params, drive);
   const double allowed_s = kPatience_s + kPatience * straight_length_m(plan) / plan.speed_mps;
-  const auto max_states = static_cast<std::size_t>(allowed_s / step_s);
-  Drive drive{.step_s = step_s, .states = {{plan.T_world_base_start, 0, 0}}, .is_complete = false};
+  const std::size_t max_states = drive.states.size() + static_cast<std::size_t>(allowed_s / step_s);
   std::size_t waypoint_index = 0;
   while (drive.states.size() < max_states) {
     const DriveState& state = drive.states.back();
@@ -128,8 +207,9 @@ Drive drive_along(const DrivePlan& plan, const DriveParams& params, double step_
       drive.is_complete = true;
       return drive;
     }
-    drive.states.push_back(
-        next_state(state, plan.waypoints_m[waypoint_index], plan.speed_mps, params, step_s));
+    const Command command =
+        towards(state, plan.waypoints_m[waypoint_index], plan.speed_mps, params);
+    drive.states.push_back(next_state(state, command, params, step_s));
   }
   return drive;
 }

@@ -1,6 +1,7 @@
-// The true motion of a differential-drive robot with limited acceleration along drawn waypoints.
-// It knows no sensor and no slip: the controller sees the true pose, so that the drive of a seed
-// depends on nothing but the world and the drive's parameters.
+// The true motion of a differential-drive robot with limited acceleration along drawn waypoints,
+// and that of its wheels where the floor's grip is limited. It knows no sensor and no slip event:
+// the controller sees the true pose, so that the drive of a seed depends on nothing but the world
+// and the drive's parameters.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +16,8 @@ namespace corridor::simulation {
 
 struct DriveState {
   Pose2 T_world_base;
-  double speed_mps = 0;  // along the base's x axis
+  double speed_mps = 0;        // along the base's x axis
+  double wheel_speed_mps = 0;  // mean of the wheels' rims; differs from the speed while they slip
   double yaw_rate_radps = 0;
 };
 
@@ -37,10 +39,15 @@ struct DrivePlan {
   double speed_mps = 0;
 };
 
-// Corridor's centre line with what the seed draws: start pose, speed, lateral offsets.
-DrivePlan draw_plan(const CorridorShape& shape, const DriveParams& params, Rng rng);
+// The corridor's centre line, or a drawn world's route, with what the seed draws: start pose,
+// speed, lateral offsets. Requires a corridor or a route of two points or more, unless
+// params.stays.
+DrivePlan draw_plan(const World& world, const DriveParams& params, Rng rng);
 
-// Ends when the last waypoint is reached.
+// The line that people walk along, without anything drawn; empty in a world without a route.
+std::vector<Eigen::Vector2d> route_of(const World& world, const DriveParams& params);
+
+// Stands, turns on the spot, then drives until the last waypoint is reached.
 Drive drive_along(const DrivePlan& plan, const DriveParams& params, double step_s);
 
 }  // namespace corridor::simulation

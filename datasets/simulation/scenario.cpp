@@ -2,79 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "datasets/simulation/toml_input.hpp"
+#include "datasets/simulation/lidar_model.hpp"
+#include "datasets/simulation/scenario_sections.hpp"
 
 namespace corridor::simulation {
-namespace {
-
-// Calls visitor(section name, parameter struct) for each table of a scenario file.
-template <class Visitor>
-void for_each_section(Scenario& scenario, Visitor&& visitor) {
-  WorldParams world = to_params(scenario.world);
-  visitor("world", world);
-  scenario.world = to_shape(world);
-  visitor("lidar", scenario.lidar);
-  visitor("wheels", scenario.wheels);
-  visitor("imu", scenario.imu);
-  visitor("drive", scenario.drive);
-  visitor("slip", scenario.slip);
-  visitor("draw", scenario.draw);
-}
-
-std::vector<TomlProblem> read_document(const toml::table& document, Scenario& scenario) {
-  std::vector<TomlProblem> problems;
-  std::vector<std::string> known{"name", "description"};
-  const auto read_text = [&](const char* key, std::string& text) {
-    const toml::node* node = document.get(key);
-    if (node != nullptr && !read_value(*node, text)) {
-      problems.push_back(
-          {node->source().begin.line, fmt::format("{} has another type; expected text", key)});
-    }
-  };
-  read_text("name", scenario.name);
-  read_text("description", scenario.description);
-  for_each_section(scenario, [&](const char* section, auto& params) {
-    known.emplace_back(section);
-    const toml::node* node = document.get(section);
-    if (node == nullptr) return;
-    if (const toml::table* table = node->as_table()) {
-      read_table(*table, section, MissingKeys::kKeepDefault, params, problems);
-    } else {
-      problems.push_back({node->source().begin.line,
-                          fmt::format("{} is not a table; expected [{}]", section, section)});
-    }
-  });
-  find_unknown_keys(document, "", known, problems);
-  return problems;
-}
-
-// "lidar.range_max_m = 3: expected ..." stands in the line of that key.
-std::uint32_t line_of_violation(const toml::table& document, std::string_view violation) {
-  const std::size_t point = violation.find('.');
-  const std::size_t space = violation.find(' ');
-  if (point == std::string_view::npos || space == std::string_view::npos || point > space) return 0;
-  return line_of(document, violation.substr(0, point),
-                 violation.substr(point + 1, space - point - 1));
-}
-
-}  // namespace
-
-Result<Scenario> read_scenario(const std::filesystem::path& path) {
-  const Result<toml::table> document = parse_toml(path);
-  if (!document) return tl::make_unexpected(document.error());
-  Scenario scenario;
-  scenario.name = path.stem().string();
-  std::vector<TomlProblem> problems = read_document(*document, scenario);
-  for (std::string& line : violations(scenario)) {
-    const std::uint32_t line_number = line_of_violation(*document, line);
-    problems.push_back({line_number, std::move(line)});
-  }
-  if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
-  return scenario;
-}
 
 Result<Scenario> with_overrides(Scenario scenario, const ParamValues& overrides,
                                 std::string_view where) {
@@ -95,6 +29,9 @@ Result<Scenario> with_overrides(Scenario scenario, const ParamValues& overrides,
         });
   });
   for (const auto& [key, value] : unused) problems.push_back("unknown scenario key " + key);
+  if (scenario.world.corridor && violations(*scenario.world.corridor).empty()) {
+    scenario.world = make_corridor(*scenario.world.corridor);
+  }
   for (std::string& line : violations(scenario)) problems.push_back(std::move(line));
   if (problems.empty()) return scenario;
   std::string what = problems.front();
@@ -113,29 +50,6 @@ ParamValues scenario_values(const Scenario& scenario) {
   return values;
 }
 
-std::vector<std::filesystem::path> list_scenarios() {
-  std::vector<std::filesystem::path> paths;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(CORRIDOR_SCENARIO_DIR, error)) {
-    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
-Result<std::filesystem::path> find_scenario(const std::string& name_or_path) {
-  std::error_code error;
-  std::string known;
-  for (const std::filesystem::path& path : list_scenarios()) {
-    if (path.stem() == name_or_path) return path;
-    known += (known.empty() ? "" : " ") + path.stem().string();
-  }
-  if (std::filesystem::is_regular_file(name_or_path, error)) {
-    return std::filesystem::path(name_or_path);
-  }
-  return fail(ErrorCode::kNotFound, "no such scenario", name_or_path, "a file or one of " + known);
-}
-
 RobotModel nominal_robot(const Scenario& scenario) {
   RobotModel robot;
   robot.name = "corridor robot";
@@ -150,9 +64,20 @@ RobotModel nominal_robot(const Scenario& scenario) {
   robot.lidar.range_min_m = scenario.lidar.range_min_m;
   robot.lidar.range_max_m = scenario.lidar.range_max_m;
   robot.lidar.range_sigma_m = scenario.lidar.range_sigma_m;
-  robot.imu.rate_hz = scenario.imu.rate_hz;
-  robot.imu.gyro_noise_radps = scenario.imu.gyro_noise_radps;
-  robot.imu.accel_noise_mps2 = scenario.imu.accel_noise_mps2;
+  robot.lidar.T_base_lidar = T_base_lidar(scenario.lidar);
+  robot.lidar.scan_duration_s = scenario.lidar.scan_duration_s;
+  robot.lidar.time_offset_s = scenario.lidar.time_offset_s;
+  const ImuParams& imu = scenario.imu;
+  robot.imu.T_base_imu = Pose2(imu.x_m, imu.y_m, imu.yaw_deg * std::numbers::pi / 180);
+  robot.imu.rate_hz = imu.rate_hz;
+  robot.imu.gyro_noise_radps = imu.gyro_noise_radps();
+  robot.imu.accel_noise_mps2 = imu.accel_noise_mps2();
+  if (imu.gyro_walk_radps_rts > 0) {
+    robot.imu.gyro_bias_walk_radps_sqrt_s = imu.gyro_walk_radps_rts;
+  }
+  if (imu.accel_walk_mps2_rts > 0) {
+    robot.imu.accel_bias_walk_mps2_sqrt_s = imu.accel_walk_mps2_rts;
+  }
   return robot;
 }
 

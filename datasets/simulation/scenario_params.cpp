@@ -16,13 +16,18 @@ CorridorShape to_shape(const WorldParams& params) {
           params.doors_every_m};
 }
 
-std::vector<std::string> LidarParams::relations() const {
-  if (range_min_m < range_max_m) return {};
-  return {fmt::format("range_min_m = {}: expected less than range_max_m = {}", range_min_m,
-                      range_max_m)};
+std::vector<std::string> DriveParams::relations() const {
+  if (speed_min_mps <= speed_max_mps) return {};
+  return {fmt::format("speed_min_mps = {}: expected at most speed_max_mps = {}", speed_min_mps,
+                      speed_max_mps)};
 }
 
-std::vector<std::string> DriveParams::relations() const {
+std::vector<std::string> SlipParams::relations() const {
+  if (num_slips == 0 || share == 0) return {};
+  return {fmt::format("num_slips = {}: expected 0 beside share = {}", num_slips, share)};
+}
+
+std::vector<std::string> PeopleParams::relations() const {
   if (speed_min_mps <= speed_max_mps) return {};
   return {fmt::format("speed_min_mps = {}: expected at most speed_max_mps = {}", speed_min_mps,
                       speed_max_mps)};

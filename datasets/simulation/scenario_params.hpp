@@ -1,5 +1,5 @@
-// The parameters of a scenario, one struct per cause, with their defaults: the suite's robot.
-// It does not read files; scenario.hpp does.
+// The parameters of a scenario besides its sensors, one struct per cause. It does not read files;
+// scenario.hpp does.
 #pragma once
 
 #include <string>
@@ -25,83 +25,10 @@ struct WorldParams {
 WorldParams to_params(const CorridorShape& shape);
 CorridorShape to_shape(const WorldParams& params);
 
-// Instant scans all around; beam i points to -pi + 2 pi (i + 1/2) / num_beams in the base frame.
-struct LidarParams {
-  double rate_hz = 10;
-  int num_beams = 360;
-  double range_min_m = 0.05;
-  double range_max_m = 4.5;
-  double range_sigma_m = 0.015;
-
-  static void visit(auto& p, auto&& v) {
-    v(ParamInfo{"rate_hz", "Hz", "scans per second; a whole multiple of it is the IMU's rate", 0.1,
-                100},
-      p.rate_hz);
-    v(ParamInfo{"num_beams", "1", "beams per turn", 4, 100000}, p.num_beams);
-    v(ParamInfo{"range_min_m", "m", "nearer walls give no return", 0, 10}, p.range_min_m);
-    v(ParamInfo{"range_max_m", "m", "farther walls give no return; the raw range is then 1 m more",
-                0.1, 1000},
-      p.range_max_m);
-    v(ParamInfo{"range_sigma_m", "m", "white noise of a range, standard deviation", 0, 1},
-      p.range_sigma_m);
-  }
-  std::vector<std::string> relations() const;
-};
-
-// Wheel encoders. recorded path = true path of the turning wheel x scale x (1 + white noise), in
-// ticks. left scale = 1 + e + u, right scale = 1 + e - u, constant per log.
-struct WheelParams {
-  double rate_hz = 50;
-  double m_per_tick = 1e-4;
-  double track_m = 0.35;
-  double noise_ratio = 0.02;
-  double scale_sigma = 0.01;
-  double unbalance_sigma = 0.005;
-
-  static void visit(auto& p, auto&& v) {
-    v(ParamInfo{"rate_hz", "Hz", "samples per second; a whole fraction of the IMU's rate", 0.1,
-                1000},
-      p.rate_hz);
-    v(ParamInfo{"m_per_tick", "m", "path of the wheel's rim per tick", 1e-7, 0.1}, p.m_per_tick);
-    v(ParamInfo{"track_m", "m", "distance between the wheels", 0.05, 2}, p.track_m);
-    v(ParamInfo{"noise_ratio", "1", "white noise of each IMU-rate step's path, as a part of it", 0,
-                1},
-      p.noise_ratio);
-    v(ParamInfo{"scale_sigma", "1", "standard deviation of the scale error e of both wheels", 0,
-                0.2},
-      p.scale_sigma);
-    v(ParamInfo{"unbalance_sigma", "1", "standard deviation of the unbalance u of the wheels", 0,
-                0.2},
-      p.unbalance_sigma);
-  }
-};
-
-// IMU at the base's origin. reading = truth + constant bias + white noise.
-struct ImuParams {
-  double rate_hz = 200;
-  double gyro_noise_radps = 0.01;
-  double accel_noise_mps2 = 0.05;
-  double gyro_bias_sigma_radps = 0.003;
-  double accel_bias_sigma_mps2 = 0.03;
-
-  static void visit(auto& p, auto&& v) {
-    v(ParamInfo{"rate_hz", "Hz",
-                "samples per second, and the rate at which the drive is integrated", 10, 10000},
-      p.rate_hz);
-    v(ParamInfo{"gyro_noise_radps", "rad/s", "white noise per sample", 0, 1}, p.gyro_noise_radps);
-    v(ParamInfo{"accel_noise_mps2", "m/s2", "white noise per sample and axis", 0, 10},
-      p.accel_noise_mps2);
-    v(ParamInfo{"gyro_bias_sigma_radps", "rad/s",
-                "standard deviation of the bias, constant per log", 0, 1},
-      p.gyro_bias_sigma_radps);
-    v(ParamInfo{"accel_bias_sigma_mps2", "m/s2",
-                "standard deviation of each axis's bias, constant per log", 0, 10},
-      p.accel_bias_sigma_mps2);
-  }
-};
-
-// The drive: from end_margin_m before the left end along the first arm, around the corner, to
-// end_margin_m before the top end. The robot heads for one waypoint after the other.
+// The drive. In the paper's corridor: from end_margin_m before the left end along the first arm,
+// around the corner, to end_margin_m before the top end; in a drawn world: along its route. First
+// the robot stands for stand_s and turns spin_turns times on the spot, then it heads for one
+// waypoint after the other.
 struct DriveParams {
   double speed_min_mps = 0.4;
   double speed_max_mps = 0.6;
@@ -117,6 +44,10 @@ struct DriveParams {
   double lateral_spread_m = 0.4;
   int num_arm_waypoints = 0;
   bool is_return_trip = false;
+  double stand_s = 0;
+  double spin_turns = 0;
+  bool stays = false;
+  double friction_limit_mps2 = 0;
 
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"speed_min_mps", "m/s", "lower end of the drawn cruising speed", 0.01, 5},
@@ -152,6 +83,18 @@ struct DriveParams {
       p.num_arm_waypoints);
     v(ParamInfo{"is_return_trip", "", "drives back to the start the same way, which closes a loop"},
       p.is_return_trip);
+    v(ParamInfo{"stand_s", "s", "stands still for so long at first", 0, 3600}, p.stand_s);
+    v(ParamInfo{"spin_turns", "1", "then turns so often on the spot; negative = clockwise", -1000,
+                1000},
+      p.spin_turns);
+    v(ParamInfo{"stays", "", "the drive ends there, without a waypoint"}, p.stays);
+    v(
+        ParamInfo{
+            "friction_limit_mps2", "m/s2",
+            "the floor gives the robot no more acceleration: wheels that are driven harder slip; "
+            "0 = grip without limit",
+            0, 20},
+        p.friction_limit_mps2);
   }
   std::vector<std::string> relations() const;
 };
@@ -160,15 +103,38 @@ struct DriveParams {
 // overlap.
 struct SlipParams {
   int num_slips = 0;
+  double share = 0;
   double duration_s = 1;
   double ratio = 0.6;
 
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"num_slips", "1", "number of slips, at drawn times of the drive", 0, 1000},
       p.num_slips);
+    v(ParamInfo{"share", "1", "instead: as many slips as fill this part of the drive", 0, 0.5},
+      p.share);
     v(ParamInfo{"duration_s", "s", "length of each", 0.01, 100}, p.duration_s);
     v(ParamInfo{"ratio", "1", "spin of the wheels as a part of the true path", -1, 10}, p.ratio);
   }
+  std::vector<std::string> relations() const;
+};
+
+// People who walk up and down the route, round and opaque. They step aside for the robot.
+struct PeopleParams {
+  int num_people = 0;
+  double radius_m = 0.22;
+  double speed_min_mps = 0.7;
+  double speed_max_mps = 1.4;
+  double lateral_spread_m = 1.0;
+
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"num_people", "1", "how many", 0, 1000}, p.num_people);
+    v(ParamInfo{"radius_m", "m", "of each", 0.05, 1}, p.radius_m);
+    v(ParamInfo{"speed_min_mps", "m/s", "lower end of the drawn speed", 0, 3}, p.speed_min_mps);
+    v(ParamInfo{"speed_max_mps", "m/s", "upper end of the drawn speed", 0, 3}, p.speed_max_mps);
+    v(ParamInfo{"lateral_spread_m", "m", "half range of the drawn distance from the route", 0, 10},
+      p.lateral_spread_m);
+  }
+  std::vector<std::string> relations() const;
 };
 
 // What else each seed draws.

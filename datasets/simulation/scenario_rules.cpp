@@ -40,7 +40,7 @@ std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
     for (const double b : {-spread, spread}) {
       for (const double c : {-spread, spread}) {
         for (const double alpha : {-alpha_spread_rad, alpha_spread_rad}) {
-          CorridorShape shape = scenario.world;
+          CorridorShape shape = *scenario.world.corridor;
           shape.a_m *= 1 + a;
           shape.b_m *= 1 + b;
           shape.c_m *= 1 + c;
@@ -53,10 +53,17 @@ std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
   return shapes;
 }
 
+// The path on which the robot comes to rest: its brakes hold no better than the floor.
+double braking_path_m(const DriveParams& drive) {
+  const double braking_mps2 = drive.friction_limit_mps2 > 0
+                                  ? std::min(drive.acceleration_mps2, drive.friction_limit_mps2)
+                                  : drive.acceleration_mps2;
+  return drive.speed_max_mps * drive.speed_max_mps / (2 * braking_mps2);
+}
+
 // Room beside a route through the corridor of this shape.
 double free_width_m(const CorridorShape& shape, const DriveParams& drive) {
-  const double braking_m =
-      drive.speed_max_mps * drive.speed_max_mps / (2 * drive.acceleration_mps2);
+  const double braking_m = braking_path_m(drive);
   return 0.5 * shape.c_m - std::max(drive.start_spread_m, drive.lateral_spread_m) -
          std::max(0.0, braking_m - drive.waypoint_reach_m);
 }
@@ -70,6 +77,19 @@ ArmLengths arm_lengths(const CorridorShape& shape, const DriveParams& drive) {
   const double setback_m =
       0.5 * shape.c_m * (1 + std::cos(shape.alpha_rad)) / std::sin(shape.alpha_rad);
   return {shape.b_m - setback_m - drive.end_margin_m, shape.a_m - setback_m - drive.end_margin_m};
+}
+
+// least_path_m: of any drive that a seed may draw.
+void check_slips(const Scenario& scenario, double least_path_m, std::vector<std::string>& found) {
+  const DriveParams& drive = scenario.drive;
+  const double least_s =
+      drive.stand_s + (drive.stays ? 0 : std::max(0.0, least_path_m) / drive.speed_max_mps);
+  if (scenario.slip.num_slips * scenario.slip.duration_s > least_s) {
+    found.push_back(
+        fmt::format("slip.num_slips = {}: expected slips of {:.3g} s in all at most, "
+                    "the shortest drive",
+                    scenario.slip.num_slips, least_s));
+  }
 }
 
 void check_route(const Scenario& scenario, const CorridorShape& shape,
@@ -99,38 +119,70 @@ void check_route(const Scenario& scenario, const CorridorShape& shape,
   // What the drawn offsets can at most take from the way.
   const double shortened_m =
       2 * drive.start_spread_m + 4 * drive.lateral_spread_m + 4 * drive.waypoint_reach_m;
-  const double least_s =
-      std::max(0.0, arms.first_m + arms.second_m - shortened_m) / drive.speed_max_mps;
-  if (scenario.slip.num_slips * scenario.slip.duration_s > least_s) {
-    found.push_back(
-        fmt::format("slip.num_slips = {}: expected slips of {:.3g} s in all at most, "
-                    "the shortest drive",
-                    scenario.slip.num_slips, least_s));
-  }
+  check_slips(scenario, arms.first_m + arms.second_m - shortened_m, found);
 }
 
-}  // namespace
-
-std::vector<std::string> violations(const Scenario& scenario) {
-  std::vector<std::string> found = violations(scenario.world);
-  append("lidar", scenario.lidar, found);
-  append("wheels", scenario.wheels, found);
-  append("imu", scenario.imu, found);
-  append("drive", scenario.drive, found);
-  append("slip", scenario.slip, found);
-  append("draw", scenario.draw, found);
-  if (scenario.name.empty()) found.emplace_back("name = \"\": expected a name");
-  if (!found.empty()) return found;
-
-  check_rate("lidar.rate_hz", scenario.lidar.rate_hz, scenario.imu.rate_hz, found);
-  check_rate("wheels.rate_hz", scenario.wheels.rate_hz, scenario.imu.rate_hz, found);
+// The paper's corridor at every edge of what a seed may draw; the first that is unfit.
+void check_corridor(const Scenario& scenario, std::vector<std::string>& found) {
   for (const CorridorShape& shape : extreme_shapes(scenario)) {
     std::vector<std::string> problems = violations(shape);
     for (std::string& line : problems) line += ", at the edge of what [draw] allows";
     if (problems.empty()) check_route(scenario, shape, problems);
     if (problems.empty()) continue;
     found.insert(found.end(), problems.begin(), problems.end());
-    break;  // the other edges would say the same again
+    return;  // the other edges would say the same again
+  }
+}
+
+void check_drawing(const Scenario& scenario, std::vector<std::string>& found) {
+  const DriveParams& drive = scenario.drive;
+  const double braking_m = braking_path_m(drive);
+  const double clearance_m = kClearance_m + std::max(drive.start_spread_m, drive.lateral_spread_m) +
+                             std::max(0.0, braking_m - drive.waypoint_reach_m);
+  for (std::string& line : violations(scenario.world, clearance_m)) {
+    found.push_back(std::move(line));
+  }
+  const std::size_t least = drive.stays ? 1 : 2;
+  if (scenario.world.route_m.size() < least) {
+    found.push_back(fmt::format("world.route_m = {} points: expected at least {}",
+                                scenario.world.route_m.size(), least));
+  }
+  if (scenario.people.num_people > 0 && scenario.world.route_m.size() < 2) {
+    found.push_back("people.num_people = " + std::to_string(scenario.people.num_people) +
+                    ": expected a route of two points or more to walk along");
+  }
+  double length_m = 0;
+  for (std::size_t i = 0; i + 1 < scenario.world.route_m.size(); ++i) {
+    length_m += (scenario.world.route_m[i + 1] - scenario.world.route_m[i]).norm() -
+                2 * (drive.lateral_spread_m + drive.waypoint_reach_m);
+  }
+  check_slips(scenario, length_m, found);
+}
+
+}  // namespace
+
+std::vector<std::string> violations(const Scenario& scenario) {
+  std::vector<std::string> found;
+  if (scenario.world.corridor) found = violations(*scenario.world.corridor);
+  append("lidar", scenario.lidar, found);
+  append("wheels", scenario.wheels, found);
+  append("imu", scenario.imu, found);
+  append("drive", scenario.drive, found);
+  append("slip", scenario.slip, found);
+  append("draw", scenario.draw, found);
+  append("people", scenario.people, found);
+  if (scenario.name.empty()) found.push_back("name = \"\": expected a name");
+  if (!found.empty()) return found;
+
+  check_rate("lidar.rate_hz", scenario.lidar.rate_hz, scenario.imu.rate_hz, found);
+  check_rate("wheels.rate_hz", scenario.wheels.rate_hz, scenario.imu.rate_hz, found);
+  if (scenario.drive.stays && scenario.drive.stand_s == 0 && scenario.drive.spin_turns == 0) {
+    found.emplace_back("drive.stays = true: expected stand_s or spin_turns beside it");
+  }
+  if (scenario.world.corridor) {
+    check_corridor(scenario, found);
+  } else {
+    check_drawing(scenario, found);
   }
   return found;
 }

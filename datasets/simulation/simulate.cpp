@@ -6,123 +6,155 @@
 #include <cmath>
 #include <numbers>
 
+#include "datasets/simulation/imu_model.hpp"
+#include "datasets/simulation/lidar_model.hpp"
+#include "datasets/simulation/message_path.hpp"
 #include "datasets/simulation/observability.hpp"
+#include "datasets/simulation/people.hpp"
 #include "datasets/simulation/robot_drive.hpp"
-#include "datasets/simulation/simulated_sensors.hpp"
+#include "datasets/simulation/slips.hpp"
+#include "datasets/simulation/wheel_model.hpp"
 #include "slam/core/expect.hpp"
 
 namespace corridor::simulation {
 namespace {
 
-CorridorShape draw_shape(const CorridorShape& shape, const DrawParams& params, Rng rng) {
-  CorridorShape drawn = shape;
+World draw_world(const Scenario& scenario, Rng rng) {
+  if (!scenario.world.corridor) return scenario.world;
+  const DrawParams& params = scenario.draw;
+  CorridorShape drawn = *scenario.world.corridor;
   drawn.a_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   drawn.b_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   drawn.c_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   const double alpha_spread_rad = params.alpha_spread_deg * std::numbers::pi / 180;
   drawn.alpha_rad += rng.uniform(-alpha_spread_rad, alpha_spread_rad);
-  return drawn;
+  return make_corridor(drawn);
 }
 
-// Uniform over all ways to place the slips one after the other in the drive: sorted uniform points
-// of the time that the slips leave free.
-std::vector<SlipInterval> draw_slips(const SlipParams& params, double drive_s, Rng rng) {
-  const double free_s = drive_s - params.num_slips * params.duration_s;
-  CORRIDOR_EXPECT(free_s >= 0);  // violations(scenario) says whether the drive is long enough
-  std::vector<double> begins_s;
-  begins_s.reserve(static_cast<std::size_t>(params.num_slips));
-  for (int i = 0; i < params.num_slips; ++i) begins_s.push_back(rng.uniform(0, free_s));
-  std::sort(begins_s.begin(), begins_s.end());
-  std::vector<SlipInterval> slips;
-  for (const double begin_s : begins_s) {
-    const double shifted_s = begin_s + static_cast<double>(slips.size()) * params.duration_s;
-    slips.push_back({shifted_s, shifted_s + params.duration_s, params.ratio});
-  }
-  return slips;
-}
-
-double spin_ratio_at(const std::vector<SlipInterval>& slips, double time_s) {
-  for (const SlipInterval& slip : slips) {
-    if (time_s >= slip.begin_s && time_s < slip.end_s) return slip.ratio;
-  }
-  return 0;
-}
-
-Timestamp stamp_of_step(std::size_t step_index, double rate_hz) {
-  return timestamp_from_seconds(static_cast<double>(step_index) / rate_hz);
-}
-
-std::size_t steps_per_sample(double imu_rate_hz, double rate_hz) {
-  return static_cast<std::size_t>(std::llround(imu_rate_hz / rate_hz));
-}
-
-SimulationTruth draw_truth(const Scenario& scenario, const Drive& drive, const CorridorShape& shape,
+SimulationTruth draw_truth(const Scenario& scenario, const Drive& drive, const World& world,
                            const Rng& rng) {
-  const WheelScales scales =
-      draw_wheel_scales(scenario.wheels, rng.stream("wheels").stream("scale"));
-  const ImuBias bias = draw_imu_bias(scenario.imu, rng.stream("imu").stream("bias"));
   SimulationTruth truth;
-  truth.world = shape;
+  truth.world = world;
   truth.T_world_base_start = drive.states.front().T_world_base;
-  truth.left_scale = scales.left;
-  truth.right_scale = scales.right;
-  truth.slips = draw_slips(scenario.slip, drive.duration_s(), rng.stream("slips"));
-  truth.gyro_bias_radps = bias.gyro_radps;
-  truth.accel_bias_x_mps2 = bias.accel_x_mps2;
-  truth.accel_bias_y_mps2 = bias.accel_y_mps2;
+  truth.wheels = draw_wheel_errors(scenario.wheels, rng.stream("wheels"));
+  truth.imu = draw_imu_errors(scenario.imu, rng.stream("imu"));
+  truth.slips = drawn_slips(scenario.slip, drive.duration_s(), rng.stream("slips"));
+  append_friction_slips(drive, truth.slips);
+  const double lidar_error_s =
+      rng.stream("lidar clock").normal(0, scenario.lidar.time_offset_sigma_s);
+  truth.lidar_time_offset_s = scenario.lidar.time_offset_s + lidar_error_s;
+  truth.imu_time_offset_s = rng.stream("imu clock").normal(0, scenario.imu.time_offset_sigma_s);
   truth.range_max_m = scenario.lidar.range_max_m;
   truth.range_sigma_m = scenario.lidar.range_sigma_m;
   return truth;
 }
 
 // Lets the three sensors watch the drive, step by step.
-void record(const Scenario& scenario, const Drive& drive, const Rng& rng, Simulated& simulated) {
-  const SimulationTruth& truth = simulated.truth;
-  const double rate_hz = scenario.imu.rate_hz;
-  const std::size_t wheel_steps = steps_per_sample(rate_hz, scenario.wheels.rate_hz);
-  const std::size_t scan_steps = steps_per_sample(rate_hz, scenario.lidar.rate_hz);
-  const RayCaster caster(simulated.world);
-  const ImuBias bias{truth.gyro_bias_radps, truth.accel_bias_x_mps2, truth.accel_bias_y_mps2};
-  WheelEncoders encoders(scenario.wheels, simulated.log.robot.wheels,
-                         {truth.left_scale, truth.right_scale},
-                         rng.stream("wheels").stream("noise"));
-  Rng imu_noise = rng.stream("imu").stream("noise");
-  DegenerateIntervals degenerate;
-  Trajectory trajectory;
+class Recorder {
+ public:
+  Recorder(const Scenario& scenario, const Drive& drive, const Rng& rng, Simulated& simulated)
+      : scenario_(scenario),
+        drive_(drive),
+        rng_(rng),
+        simulated_(simulated),
+        lidar_(simulated.world, scenario.lidar),
+        people_(scenario.people, route_of(simulated.world, scenario.drive), rng.stream("people")),
+        encoders_(scenario.wheels, simulated.log.robot.wheels, simulated.truth.wheels,
+                  rng.stream("wheels").stream("noise")),
+        imu_(scenario.imu, simulated.truth.imu, drive.step_s, rng.stream("imu")),
+        lidar_path_(scenario.lidar.message, simulated.truth.lidar_time_offset_s,
+                    rng.stream("lidar messages")),
+        wheel_path_(scenario.wheels.message, 0, rng.stream("wheel messages")),
+        imu_path_(scenario.imu.message, simulated.truth.imu_time_offset_s,
+                  rng.stream("imu messages")) {}
 
-  for (std::size_t k = 1; k < drive.states.size(); ++k) {
-    const DriveState& from = drive.states[k - 1];
-    const DriveState& to = drive.states[k];
-    const Timestamp stamp = stamp_of_step(k, rate_hz);
-    // The interval of a step is judged at its middle.
-    const double middle_s = (static_cast<double>(k) - 0.5) * drive.step_s;
-    encoders.advance(from, to, drive.step_s, spin_ratio_at(truth.slips, middle_s));
-    if (k % wheel_steps == 0) simulated.log.events.emplace_back(encoders.sample(stamp));
-    simulated.log.events.emplace_back(
-        measure_imu(from, to, drive.step_s, stamp, bias, scenario.imu, imu_noise));
-    if (k % scan_steps != 0) continue;
-    const auto hits = cast_beams(caster, to.T_world_base, scenario.lidar);
-    simulated.log.events.emplace_back(measure_scan(
-        hits, stamp, scenario.lidar, rng.stream("lidar").stream(std::uint64_t{k / scan_steps})));
-    degenerate.add(stamp, degenerate_direction_rad(hits, simulated.world));
-    CORRIDOR_ENSURE(trajectory.append({stamp, to.T_world_base, std::nullopt}));
+  void record() {
+    const double rate_hz = scenario_.imu.rate_hz;
+    const std::size_t wheel_steps = steps_per_sample(rate_hz, scenario_.wheels.rate_hz);
+    const std::size_t scan_steps = steps_per_sample(rate_hz, scenario_.lidar.rate_hz);
+    for (std::size_t k = 1; k < drive_.states.size(); ++k) {
+      const DriveState& from = drive_.states[k - 1];
+      const DriveState& to = drive_.states[k];
+      const Timestamp moment = timestamp_from_seconds(static_cast<double>(k) / rate_hz);
+      // The interval of a step is judged at its middle.
+      const double middle_s = (static_cast<double>(k) - 0.5) * drive_.step_s;
+      encoders_.advance(from, to, drive_.step_s, event_ratio_at(simulated_.truth.slips, middle_s));
+      if (k % wheel_steps == 0) {
+        if (const auto stamp = wheel_path_.stamp_of(moment)) add(encoders_.sample(*stamp));
+      }
+      ImuSample reading = imu_.measure(from, to, moment);
+      if (const auto stamp = imu_path_.stamp_of(moment)) {
+        reading.stamp = *stamp;
+        add(reading);
+      }
+      if (k % scan_steps == 0) take_scan(k, k / scan_steps, moment);
+    }
+    std::stable_sort(
+        simulated_.log.events.begin(), simulated_.log.events.end(),
+        [](const SensorEvent& a, const SensorEvent& b) { return stamp_of(a) < stamp_of(b); });
+    simulated_.truth.degenerate = degenerate_.intervals();
   }
-  simulated.log.truth = std::move(trajectory);
-  simulated.truth.degenerate = degenerate.intervals();
-}
+
+ private:
+  static std::size_t steps_per_sample(double imu_rate_hz, double rate_hz) {
+    return static_cast<std::size_t>(std::llround(imu_rate_hz / rate_hz));
+  }
+
+  void add(SensorEvent event) { simulated_.log.events.push_back(std::move(event)); }
+
+  void take_scan(std::size_t step_index, std::size_t scan_index, Timestamp moment) {
+    // A sweep that the end of the drive cuts short is not recorded.
+    const double end_s =
+        static_cast<double>(step_index) * drive_.step_s + scenario_.lidar.scan_duration_s;
+    if (end_s > drive_.duration_s() + 1e-9) return;
+    const std::optional<Timestamp> stamp = lidar_path_.stamp_of(moment);
+    if (!stamp) return;
+    const Pose2& T_world_base = drive_.states[step_index].T_world_base;
+    const Sweep sweep = lidar_.sweep(
+        [&](double time_s) { return pose_after(step_index, time_s); },
+        people_.at(static_cast<double>(step_index) * drive_.step_s, T_world_base.translation_m()));
+    LaserScan scan = lidar_.measure(sweep, rng_.stream("lidar").stream(std::uint64_t{scan_index}));
+    scan.stamp = *stamp;
+    add(std::move(scan));
+    degenerate_.add(*stamp, degenerate_direction_rad(sweep.hits));
+    const bool is_later = simulated_.log.truth->append({*stamp, T_world_base, std::nullopt});
+    CORRIDOR_ENSURE(is_later);
+  }
+
+  // Pose a time after a step, on the arc between the two states around it.
+  Pose2 pose_after(std::size_t step_index, double time_s) const {
+    const double steps = time_s / drive_.step_s;
+    const auto whole = static_cast<std::size_t>(steps);
+    const std::size_t from = std::min(step_index + whole, drive_.states.size() - 1);
+    const std::size_t to = std::min(from + 1, drive_.states.size() - 1);
+    const Pose2& T_world_from = drive_.states[from].T_world_base;
+    const double share = steps - static_cast<double>(whole);
+    if (share == 0 || from == to) return T_world_from;
+    return T_world_from.plus(share * drive_.states[to].T_world_base.minus(T_world_from));
+  }
+
+  const Scenario& scenario_;
+  const Drive& drive_;
+  const Rng& rng_;
+  Simulated& simulated_;
+  LidarModel lidar_;
+  People people_;
+  WheelEncoders encoders_;
+  ImuModel2d imu_;
+  MessagePath lidar_path_, wheel_path_, imu_path_;
+  DegenerateIntervals degenerate_;
+};
 
 }  // namespace
 
 Simulated simulate(const Scenario& scenario, std::uint64_t seed) {
   CORRIDOR_EXPECT(violations(scenario).empty());
   const Rng rng(seed);
-  const CorridorShape shape = draw_shape(scenario.world, scenario.draw, rng.stream("world"));
-  const DrivePlan plan = draw_plan(shape, scenario.drive, rng.stream("path"));
-  const Drive drive = drive_along(plan, scenario.drive, 1 / scenario.imu.rate_hz);
-
   Simulated simulated;
-  simulated.world = make_corridor(shape);
-  simulated.truth = draw_truth(scenario, drive, shape, rng);
+  simulated.world = draw_world(scenario, rng.stream("world"));
+  const DrivePlan plan = draw_plan(simulated.world, scenario.drive, rng.stream("path"));
+  const Drive drive = drive_along(plan, scenario.drive, 1 / scenario.imu.rate_hz);
+  simulated.truth = draw_truth(scenario, drive, simulated.world, rng);
   simulated.log.robot = nominal_robot(scenario);
   simulated.log.provenance = {.name = fmt::format("{}-s{}", scenario.name, seed),
                               .source = "simulated",
@@ -131,7 +163,8 @@ Simulated simulate(const Scenario& scenario, std::uint64_t seed) {
   if (!drive.is_complete) {
     simulated.log.provenance.notes.emplace_back("the drive ended before its last waypoint");
   }
-  record(scenario, drive, rng, simulated);
+  simulated.log.truth.emplace();
+  Recorder(scenario, drive, rng, simulated).record();
   return simulated;
 }
 

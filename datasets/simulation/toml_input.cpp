@@ -52,4 +52,30 @@ void find_unknown_keys(const toml::table& table, std::string_view section,
   }
 }
 
+Eigen::Vector2d read_point(const toml::node& node, std::string_view key,
+                           std::vector<TomlProblem>& problems) {
+  const toml::array* pair = node.as_array();
+  Eigen::Vector2d point_m = Eigen::Vector2d::Zero();
+  if (pair == nullptr || pair->size() != 2 || !read_value(*pair->get(0), point_m.x()) ||
+      !read_value(*pair->get(1), point_m.y())) {
+    problems.push_back(
+        {node.source().begin.line, fmt::format("{}: expected a point, [x, y]", key)});
+    return Eigen::Vector2d::Zero();
+  }
+  return point_m;
+}
+
+std::vector<Eigen::Vector2d> read_points(const toml::node& node, std::string_view key,
+                                         std::vector<TomlProblem>& problems) {
+  std::vector<Eigen::Vector2d> points_m;
+  const toml::array* list = node.as_array();
+  if (list == nullptr) {
+    problems.push_back({node.source().begin.line,
+                        fmt::format("{}: expected a list of points, [[x, y], ...]", key)});
+    return points_m;
+  }
+  for (const toml::node& point : *list) points_m.push_back(read_point(point, key, problems));
+  return points_m;
+}
+
 }  // namespace corridor::simulation

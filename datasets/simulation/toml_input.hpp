@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -52,13 +53,21 @@ bool read_value(const toml::node& node, T& value) {
   return true;
 }
 
+// "[x, y]" and a list of such; numbers only. What is not is a problem and reads as (0, 0).
+Eigen::Vector2d read_point(const toml::node& node, std::string_view key,
+                           std::vector<TomlProblem>& problems);
+std::vector<Eigen::Vector2d> read_points(const toml::node& node, std::string_view key,
+                                         std::vector<TomlProblem>& problems);
+
 enum class MissingKeys { kKeepDefault, kAreErrors };
 
-// Sets the fields of `params` from the keys of the table; ranges are not checked here.
+// Sets the fields of `params` from the keys of the table; ranges are not checked here. Keys in
+// `read_elsewhere` are not looked at. Give the parsed table itself: a copy has lost its lines.
 template <class P>
 void read_table(const toml::table& table, std::string_view section, MissingKeys missing, P& params,
-                std::vector<TomlProblem>& problems) {
-  std::vector<std::string> known;
+                std::vector<TomlProblem>& problems,
+                const std::vector<std::string>& read_elsewhere = {}) {
+  std::vector<std::string> known = read_elsewhere;
   P::visit(params, [&](const ParamInfo& info, auto& field) {
     using T = std::remove_reference_t<decltype(field)>;
     known.emplace_back(info.name);

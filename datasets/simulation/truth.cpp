@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "datasets/simulation/scenario_params.hpp"
 #include "datasets/simulation/toml_input.hpp"
+#include "datasets/simulation/world_table.hpp"
 
 namespace corridor::simulation {
 namespace {
@@ -39,6 +42,22 @@ struct LidarTable {
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"range_max_m", "m", "range"}, p.range_max_m);
     v(ParamInfo{"range_sigma_m", "m", "noise"}, p.range_sigma_m);
+  }
+};
+
+// What only richer scenarios draw: not in every file.
+struct ErrorsTable {
+  double track_ratio = 1, gyro_scale = 1, accel_scale_x = 1, accel_scale_y = 1;
+  double misalignment_rad = 0, lidar_time_offset_s = 0, imu_time_offset_s = 0;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"track_ratio", "1", "true / stated track"}, p.track_ratio);
+    v(ParamInfo{"gyro_scale", "1", "reading / truth"}, p.gyro_scale);
+    v(ParamInfo{"accel_scale_x", "1", "reading / truth"}, p.accel_scale_x);
+    v(ParamInfo{"accel_scale_y", "1", "reading / truth"}, p.accel_scale_y);
+    v(ParamInfo{"misalignment_rad", "rad", "true minus stated yaw of the IMU"}, p.misalignment_rad);
+    v(ParamInfo{"lidar_time_offset_s", "s", "LiDAR clock minus wheel clock"},
+      p.lidar_time_offset_s);
+    v(ParamInfo{"imu_time_offset_s", "s", "IMU clock minus wheel clock"}, p.imu_time_offset_s);
   }
 };
 
@@ -127,15 +146,24 @@ Table read_section(const toml::table& document, std::string_view section,
 
 std::string truth_toml(const SimulationTruth& truth) {
   const Pose2& start = truth.T_world_base_start;
-  std::string text = table_text("world", to_params(truth.world)) +
-                     table_text("start", StartTable{start.x_m(), start.y_m(), start.theta_rad()}) +
-                     table_text("wheels", WheelTable{truth.left_scale, truth.right_scale}) +
-                     rows_text<SlipRow>("slips", truth.slips) +
-                     table_text("imu", ImuTable{truth.gyro_bias_radps, truth.accel_bias_x_mps2,
-                                                truth.accel_bias_y_mps2}) +
-                     table_text("lidar", LidarTable{truth.range_max_m, truth.range_sigma_m});
+  const ImuErrors& imu = truth.imu;
+  std::vector<SlipInterval> events, grip_slips;
+  for (const SlipInterval& slip : truth.slips) {
+    (slip.cause == SlipCause::kGrip ? grip_slips : events).push_back(slip);
+  }
+  std::string text =
+      world_toml(truth.world) +
+      table_text("start", StartTable{start.x_m(), start.y_m(), start.theta_rad()}) +
+      table_text("wheels", WheelTable{truth.wheels.left_scale, truth.wheels.right_scale}) +
+      rows_text<SlipRow>("slips", events) + rows_text<SlipRow>("grip_slips", grip_slips) +
+      table_text("imu",
+                 ImuTable{imu.gyro_bias_radps, imu.accel_bias_x_mps2, imu.accel_bias_y_mps2}) +
+      table_text("lidar", LidarTable{truth.range_max_m, truth.range_sigma_m});
   if (truth.degenerate) text += rows_text<DegenerateRow>("degenerate", *truth.degenerate);
-  return text;
+  return text + table_text("errors",
+                           ErrorsTable{truth.wheels.track_ratio, imu.gyro_scale, imu.accel_scale_x,
+                                       imu.accel_scale_y, imu.misalignment_rad,
+                                       truth.lidar_time_offset_s, truth.imu_time_offset_s});
 }
 
 Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
@@ -149,21 +177,38 @@ Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
     take_rows<DegenerateRow>(*document, "lidar", "degenerate", *truth.degenerate, problems);
   }
   take_rows<SlipRow>(*document, "wheels", "slips", truth.slips, problems);
+  const std::size_t num_events = truth.slips.size();
+  take_rows<SlipRow>(*document, "wheels", "grip_slips", truth.slips, problems);
+  for (std::size_t i = num_events; i < truth.slips.size(); ++i) {
+    truth.slips[i].cause = SlipCause::kGrip;
+  }
+  std::sort(truth.slips.begin(), truth.slips.end(),
+            [](const SlipInterval& a, const SlipInterval& b) { return a.begin_s < b.begin_s; });
 
-  truth.world = to_shape(read_section<WorldParams>(*document, "world", problems));
+  if (const toml::table* world = document->get_as<toml::table>("world")) {
+    truth.world = read_world_table(*world, problems);
+  } else {
+    problems.push_back({0, "no table [world]; expected one"});
+  }
   const auto start = read_section<StartTable>(*document, "start", problems);
   const auto wheels = read_section<WheelTable>(*document, "wheels", problems);
   const auto imu = read_section<ImuTable>(*document, "imu", problems);
   const auto lidar = read_section<LidarTable>(*document, "lidar", problems);
-  find_unknown_keys(*document, "", {"world", "start", "wheels", "imu", "lidar"}, problems);
+  ErrorsTable errors;
+  if (document->contains("errors")) {
+    errors = read_section<ErrorsTable>(*document, "errors", problems);
+  }
+  find_unknown_keys(*document, "", {"world", "start", "wheels", "imu", "lidar", "errors"},
+                    problems);
   if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
 
   truth.T_world_base_start = Pose2(start.x_m, start.y_m, start.yaw_rad);
-  truth.left_scale = wheels.left_scale;
-  truth.right_scale = wheels.right_scale;
-  truth.gyro_bias_radps = imu.gyro_bias_radps;
-  truth.accel_bias_x_mps2 = imu.accel_bias_x_mps2;
-  truth.accel_bias_y_mps2 = imu.accel_bias_y_mps2;
+  truth.wheels = {wheels.left_scale, wheels.right_scale, errors.track_ratio};
+  truth.imu = {imu.gyro_bias_radps,    imu.accel_bias_x_mps2, imu.accel_bias_y_mps2,
+               errors.gyro_scale,      errors.accel_scale_x,  errors.accel_scale_y,
+               errors.misalignment_rad};
+  truth.lidar_time_offset_s = errors.lidar_time_offset_s;
+  truth.imu_time_offset_s = errors.imu_time_offset_s;
   truth.range_max_m = lidar.range_max_m;
   truth.range_sigma_m = lidar.range_sigma_m;
   return truth;

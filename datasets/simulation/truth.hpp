@@ -7,18 +7,26 @@
 #include <string>
 #include <vector>
 
+#include "datasets/simulation/imu_model.hpp"
+#include "datasets/simulation/wheel_model.hpp"
 #include "datasets/simulation/world.hpp"
 #include "slam/core/pose2.hpp"
 #include "slam/core/result.hpp"
 
 namespace corridor::simulation {
 
+enum class SlipCause {
+  kEvent,  // drawn; the robot's own motion is that of a drive without it
+  kGrip,   // the floor gave less acceleration than the wheels were driven with
+};
+
 // While begin_s <= t < end_s both wheels spin: each turns (1 + ratio) times as far as the robot
-// moves over it. The robot's own motion is that of a drive without the slip.
+// moves over it; for kGrip that is the mean.
 struct SlipInterval {
   double begin_s = 0;
   double end_s = 0;
   double ratio = 0;
+  SlipCause cause = SlipCause::kEvent;
 };
 
 // Scans from begin_s to end_s (stamps, both included) see walls of one direction only: they say
@@ -30,14 +38,13 @@ struct DegenerateInterval {
 };
 
 struct SimulationTruth {
-  CorridorShape world;
+  World world;
   Pose2 T_world_base_start;
-  double left_scale = 1;  // recorded wheel path / true wheel path
-  double right_scale = 1;
-  std::vector<SlipInterval> slips;
-  double gyro_bias_radps = 0;
-  double accel_bias_x_mps2 = 0;
-  double accel_bias_y_mps2 = 0;
+  WheelErrors wheels;
+  std::vector<SlipInterval> slips;  // in order, none meets another
+  ImuErrors imu;
+  double lidar_time_offset_s = 0;  // its clock minus the wheels', known and unknown part
+  double imu_time_offset_s = 0;
   double range_max_m = 0;
   double range_sigma_m = 0;
   // nullopt where the sidecar does not say; some logs come from other simulators.

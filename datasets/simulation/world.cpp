@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
+#include <string>
 
 #include "slam/core/expect.hpp"
 
@@ -11,105 +15,135 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMinAlpha_rad = std::numbers::pi / 6;
-constexpr double kMaxAlpha_rad = 5 * std::numbers::pi / 6;
-// Recesses keep this far from the ends of their wall, so that two of them never meet at a corner.
-constexpr double kDoorMargin_m = 0.5;
+constexpr double kLargest_m = 1e5;
+constexpr double kShortest_m = 1e-3;
+constexpr double kArcPiece_rad = std::numbers::pi / 36;
+// The route is tried this densely.
+constexpr double kRouteStep_m = 0.05;
 
-// From a corner of the two outer walls along either of them to where the inner corner projects.
-double corner_setback_m(const CorridorShape& shape) {
-  return shape.c_m * (1 + std::cos(shape.alpha_rad)) / std::sin(shape.alpha_rad);
+bool is_sane(const Vector2d& point_m) {
+  return point_m.allFinite() && point_m.lpNorm<Eigen::Infinity>() <= kLargest_m;
 }
 
-void append_recess(const Segment& wall, double centre_m, std::vector<Vector2d>& corners_m) {
-  const Vector2d along = (wall.b_m - wall.a_m).normalized();
-  const Vector2d outward(along.y(), -along.x());  // the corridor lies to the left of each wall
-  const Vector2d begin_m = wall.a_m + (centre_m - kDoorWidth_m / 2) * along;
-  const Vector2d end_m = wall.a_m + (centre_m + kDoorWidth_m / 2) * along;
-  corners_m.push_back(begin_m);
-  corners_m.emplace_back(begin_m + kDoorDepth_m * outward);
-  corners_m.emplace_back(end_m + kDoorDepth_m * outward);
-  corners_m.push_back(end_m);
-}
-
-// Adds the wall with recesses centred at first_m, first_m + every_m, ... from its beginning.
-void append_wall(const Segment& wall, double first_m, double every_m, std::vector<Segment>& walls) {
-  std::vector<Vector2d> corners_m{wall.a_m};
-  if (every_m > 0) {
-    const double margin_m = kDoorMargin_m + kDoorWidth_m / 2;
-    for (double centre_m = first_m; centre_m <= wall.length_m() - margin_m; centre_m += every_m) {
-      if (centre_m >= margin_m) append_recess(wall, centre_m, corners_m);
+void check_surfaces(const World& world, std::vector<std::string>& found) {
+  if (world.num_surfaces() == 0) found.emplace_back("world: no walls; expected at least one");
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const Segment& wall = world.walls[i];
+    if (!is_sane(wall.a_m) || !is_sane(wall.b_m) || wall.length_m() < kShortest_m) {
+      found.push_back(fmt::format(
+          "world: wall {} from ({}, {}) to ({}, {}) m; expected at least {} m of length within {} "
+          "m "
+          "of the origin",
+          i, wall.a_m.x(), wall.a_m.y(), wall.b_m.x(), wall.b_m.y(), kShortest_m, kLargest_m));
     }
   }
-  corners_m.push_back(wall.b_m);
-  for (std::size_t i = 1; i < corners_m.size(); ++i) {
-    walls.push_back({corners_m[i - 1], corners_m[i]});
+  for (std::size_t i = 0; i < world.arcs.size(); ++i) {
+    const Arc& arc = world.arcs[i];
+    const bool is_fit = is_sane(arc.centre_m) && arc.radius_m >= kShortest_m &&
+                        arc.radius_m <= kLargest_m && std::isfinite(arc.begin_rad) &&
+                        arc.sweep_rad > 0 && arc.sweep_rad <= 2 * std::numbers::pi + 1e-12;
+    if (!is_fit) {
+      found.push_back(fmt::format(
+          "world: arc {} with radius {} m and sweep {} deg; expected {} to {} m and 0 to 360 deg",
+          i, arc.radius_m, arc.sweep_rad * 180 / std::numbers::pi, kShortest_m, kLargest_m));
+    }
+  }
+}
+
+void check_materials(const World& world, std::vector<std::string>& found) {
+  std::set<std::string> names;
+  for (const Material& material : world.materials) {
+    // Surfaces name their material, and the name is written into quotes.
+    if (material.name.empty() || material.name.find_first_of("\"\\\n\r\t") != std::string::npos ||
+        !names.insert(material.name).second) {
+      found.push_back(
+          fmt::format("world: material \"{}\"; expected a name that no other has, without quotes",
+                      material.name));
+    }
+    if (!(material.range_factor > 0 && material.range_factor <= 1)) {
+      found.push_back(fmt::format("world: material {} has range_factor = {}; expected (0, 1]",
+                                  material.name, material.range_factor));
+    }
+    if (!(material.seen_within_deg > 0 && material.seen_within_deg <= 90)) {
+      found.push_back(fmt::format("world: material {} has seen_within_deg = {}; expected (0, 90]",
+                                  material.name, material.seen_within_deg));
+    }
+  }
+}
+
+double clearance_of(const World& world, const Vector2d& point_m) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Segment& wall : world.walls) {
+    nearest_m = std::min(nearest_m, clearance_m(wall, point_m));
+  }
+  for (const Arc& arc : world.arcs) nearest_m = std::min(nearest_m, clearance_m(arc, point_m));
+  return nearest_m;
+}
+
+void check_route(const World& world, double clearance_m, std::vector<std::string>& found) {
+  for (std::size_t i = 0; i + 1 < world.route_m.size(); ++i) {
+    const Vector2d leg_m = world.route_m[i + 1] - world.route_m[i];
+    if (!is_sane(world.route_m[i]) || !is_sane(world.route_m[i + 1])) {
+      found.push_back(fmt::format("world: route point {} or {} is not within {} m of the origin", i,
+                                  i + 1, kLargest_m));
+      return;
+    }
+    const int num_steps = static_cast<int>(std::ceil(leg_m.norm() / kRouteStep_m));
+    for (int k = 0; k <= num_steps; ++k) {
+      const Vector2d point_m =
+          world.route_m[i] + leg_m * (num_steps == 0 ? 0 : static_cast<double>(k) / num_steps);
+      const double room_m = clearance_of(world, point_m);
+      if (room_m >= clearance_m) continue;
+      found.push_back(
+          fmt::format("world: the route passes ({:.3g}, {:.3g}) at {:.3g} m from a wall; expected "
+                      "at least {} m",
+                      point_m.x(), point_m.y(), room_m, clearance_m));
+      break;
+    }
   }
 }
 
 }  // namespace
 
-std::vector<std::string> violations(const CorridorShape& shape) {
-  std::vector<std::string> found;
-  const auto check_positive = [&](const char* key, double value) {
-    if (!(std::isfinite(value) && value > 0)) {
-      found.push_back(fmt::format("world.{} = {}: expected a finite number > 0", key, value));
-    }
-  };
-  check_positive("a_m", shape.a_m);
-  check_positive("b_m", shape.b_m);
-  check_positive("c_m", shape.c_m);
-  if (!(shape.alpha_rad >= kMinAlpha_rad && shape.alpha_rad <= kMaxAlpha_rad)) {
-    found.push_back(fmt::format("world.alpha_deg = {:.6g}: expected 30 to 150",
-                                shape.alpha_rad * 180 / std::numbers::pi));
-  }
-  if (!(shape.doors_every_m == 0 || (std::isfinite(shape.doors_every_m) &&
-                                     shape.doors_every_m >= kDoorWidth_m + kDoorMargin_m))) {
-    found.push_back(fmt::format("world.doors_every_m = {}: expected 0 (no doors) or at least {}",
-                                shape.doors_every_m, kDoorWidth_m + kDoorMargin_m));
-  }
-  if (!found.empty()) return found;
-  const double setback_m = corner_setback_m(shape);
-  if (shape.a_m <= setback_m) {
-    found.push_back(fmt::format("world.a_m = {}: expected more than {:.6g}, where the arms part",
-                                shape.a_m, setback_m));
-  }
-  if (shape.b_m <= setback_m) {
-    found.push_back(fmt::format("world.b_m = {}: expected more than {:.6g}, where the arms part",
-                                shape.b_m, setback_m));
-  }
-  return found;
+const Material& World::material(std::size_t surface_index) const {
+  static const Material kPlain;
+  CORRIDOR_EXPECT(surface_index < num_surfaces());
+  return materials.empty() ? kPlain : materials[material_of_surface[surface_index]];
 }
 
-KeyWalls key_walls(const CorridorShape& shape) {
-  CORRIDOR_EXPECT(violations(shape).empty());
-  const Vector2d up(-std::cos(shape.alpha_rad), std::sin(shape.alpha_rad));  // along the second arm
-  const Vector2d inward(-up.y(), up.x());
-  const Vector2d outer_corner_m(shape.b_m, 0);
-  const Vector2d outer_top_m = outer_corner_m + shape.a_m * up;
-  const Vector2d inner_top_m = outer_top_m + shape.c_m * inward;
-  const Vector2d inner_corner_m =
-      outer_corner_m + shape.c_m * inward + corner_setback_m(shape) * up;
-  const Vector2d inner_left_m(0, shape.c_m);
-  return {.lower_outer = {Vector2d::Zero(), outer_corner_m},
-          .right_outer = {outer_corner_m, outer_top_m},
-          .left_end = {inner_left_m, Vector2d::Zero()},
-          .top_end = {outer_top_m, inner_top_m},
-          .lower_inner = {inner_corner_m, inner_left_m},
-          .right_inner = {inner_top_m, inner_corner_m}};
+Vector2d World::normal(std::size_t surface_index, const Vector2d& point_m) const {
+  CORRIDOR_EXPECT(surface_index < num_surfaces());
+  if (surface_index < walls.size()) return walls[surface_index].normal();
+  return (point_m - arcs[surface_index - walls.size()].centre_m).normalized();
+}
+
+std::vector<std::vector<Vector2d>> outlines_m(const World& world) {
+  std::vector<std::vector<Vector2d>> lines;
+  for (const Segment& wall : world.walls) lines.push_back({wall.a_m, wall.b_m});
+  for (const Arc& arc : world.arcs) {
+    const int num_pieces = std::max(1, static_cast<int>(std::ceil(arc.sweep_rad / kArcPiece_rad)));
+    std::vector<Vector2d>& line = lines.emplace_back();
+    for (int i = 0; i <= num_pieces; ++i) {
+      line.push_back(arc.point_m(static_cast<double>(i) / num_pieces));
+    }
+  }
+  return lines;
 }
 
 World make_corridor(const CorridorShape& shape) {
-  const KeyWalls key = key_walls(shape);
-  const double every_m = shape.doors_every_m;
-  World world{.walls = {}, .corridor = shape};
-  append_wall(key.lower_outer, every_m / 2, every_m, world.walls);
-  append_wall(key.right_outer, every_m / 2, every_m, world.walls);
-  append_wall(key.top_end, 0, 0, world.walls);
-  append_wall(key.right_inner, every_m, every_m, world.walls);
-  append_wall(key.lower_inner, every_m, every_m, world.walls);
-  append_wall(key.left_end, 0, 0, world.walls);
+  World world;
+  world.walls = corridor_walls(shape);
+  world.corridor = shape;
   return world;
+}
+
+std::vector<std::string> violations(const World& world, double clearance_m) {
+  if (world.corridor) return violations(*world.corridor);
+  std::vector<std::string> found;
+  check_surfaces(world, found);
+  check_materials(world, found);
+  if (found.empty()) check_route(world, clearance_m, found);
+  return found;
 }
 
 }  // namespace corridor::simulation

@@ -1,71 +1,66 @@
-// The world a simulated robot drives in: straight walls, and the L-shaped corridor of the paper
-// with its key lengths a, b, c and angle alpha. It does not know sensors, robots or files other
-// than TOML.
+// The world a simulated robot drives in: walls and arcs of stated materials, and a route through
+// them. Drawn in TOML, made from the paper's corridor, or traced from an occupancy map. It does not
+// know sensors or robots.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "datasets/simulation/corridor_shape.hpp"
+#include "datasets/simulation/surfaces.hpp"
+#include "slam/core/grid_map.hpp"
 #include "slam/core/result.hpp"
 
 namespace corridor::simulation {
 
-// A straight wall from a to b, seen from both sides.
-struct Segment {
-  Eigen::Vector2d a_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d b_m = Eigen::Vector2d::Zero();
-
-  [[nodiscard]] double length_m() const { return (b_m - a_m).norm(); }
-};
-
-// The L: a first arm along +x of the world and a second arm that turns left at its end.
-//
-//            top_end                 lower_outer  from (0, 0) to (b, 0)
-//          ┌────┐                    right_outer  from (b, 0), a long, at the interior angle alpha
-//  right_  │    │ right_outer        left_end     from (0, 0) to (0, c), at x = 0
-//  inner   │    │                    top_end      square to right_outer, c long
-//  ┌───────┘    │                    lower_inner  parallel to lower_outer at distance c
-//  │lower_inner │                    right_inner  parallel to right_outer at distance c
-//  └────────────┘ lower_outer
-//
-// doors_every_m > 0 cuts recesses kDoorDepth_m deep and kDoorWidth_m wide into the four long walls,
-// away from the corridor, one per period, those of the inner walls half a period later.
-struct CorridorShape {
-  double a_m = 14.5;                        // length of the right outer wall
-  double b_m = 21.0;                        // length of the lower outer wall
-  double c_m = 5.0;                         // width of both arms
-  double alpha_rad = std::numbers::pi / 2;  // interior angle between the two outer walls
-  double doors_every_m = 0;                 // period of the door recesses; 0 = no doors
-
-  bool operator==(const CorridorShape&) const = default;
-};
-
-inline constexpr double kDoorDepth_m = 0.12;
-inline constexpr double kDoorWidth_m = 1.0;
-
+// Surfaces are numbered: the walls first, then the arcs.
 struct World {
   std::vector<Segment> walls;
+  std::vector<Arc> arcs;
+  std::vector<Material> materials;  // empty: everything is Material{}
+  // Per surface, into `materials`; empty where `materials` is.
+  std::vector<std::uint8_t> material_of_surface;
+  // Where a robot drives, in order; empty for the paper's corridor, whose route is drawn.
+  std::vector<Eigen::Vector2d> route_m;
   std::optional<CorridorShape> corridor;  // where the walls are those of make_corridor()
+
+  [[nodiscard]] std::size_t num_surfaces() const { return walls.size() + arcs.size(); }
+  [[nodiscard]] const Material& material(std::size_t surface_index) const;
+  // Unit normal of a surface at a point on it.
+  [[nodiscard]] Eigen::Vector2d normal(std::size_t surface_index,
+                                       const Eigen::Vector2d& point_m) const;
 };
 
-// The six walls without their doors; each runs counter-clockwise around the corridor.
-struct KeyWalls {
-  Segment lower_outer, right_outer, left_end, top_end, lower_inner, right_inner;
-};
+// Every surface as a line through points, arcs in pieces of at most 5 degrees: for drawing.
+std::vector<std::vector<Eigen::Vector2d>> outlines_m(const World& world);
 
-// All rules broken ("world.c_m = 30: expected less than ..."); empty = the corridor can be drawn.
-std::vector<std::string> violations(const CorridorShape& shape);
-
-// Both require violations(shape).empty().
-KeyWalls key_walls(const CorridorShape& shape);
+// Requires violations(shape).empty().
 World make_corridor(const CorridorShape& shape);
 
-// Reads the [world] table (a_m b_m c_m alpha_deg doors_every_m; missing keys are errors, unknown
-// keys too) of a LOG.truth.toml or of a scenario; other tables are not looked at.
+// Walls along the borders between occupied cells and all others; runs of one direction are one
+// wall. No route.
+World traced_world(const GridMap& map);
+
+// Everything that makes a world unfit: surfaces without length, materials out of range, coordinates
+// that are not finite or beyond 1e5 m, a route that crosses a wall or comes nearer to one than
+// `clearance_m`. Empty = fit.
+std::vector<std::string> violations(const World& world, double clearance_m);
+
+// Reads a world file, or the [world] table of a LOG.truth.toml or of a scenario; other tables are
+// not looked at. Either the corridor's keys
+//   a_m b_m c_m alpha_deg doors_every_m      (missing keys are errors)
+// or a drawing
+//   polygons  = [{points_m = [[x, y], ...], closed = true, material = "wall"}, ...]
+//   arcs      = [{centre_m = [x, y], radius_m, begin_deg, sweep_deg, material}, ...]
+//   materials = [{name, range_factor, seen_within_deg}, ...]
+//   route_m   = [[x, y], ...]
+// Unknown keys are errors.
 Result<World> read_world(const std::filesystem::path& path);
+// The [world] table that read_world() reads back as the same world; angles of arcs to rounding.
+std::string world_toml(const World& world);
 
 }  // namespace corridor::simulation

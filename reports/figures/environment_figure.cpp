@@ -129,10 +129,7 @@ std::optional<Figure> environment_figure(const reports::Cases& cases, const std:
           fmt::format("Drawing of an L-shaped corridor with {}, {}, {}, {}", labels[0], labels[1],
                       labels[2], labels[3]));
   Bounds bounds;
-  for (const simulation::Segment& wall : scene.world->walls) {
-    bounds.include(wall.a_m);
-    bounds.include(wall.b_m);
-  }
+  include(*scene.world, bounds);
   const PlaneFrame frame(bounds, 0, 0, kWidth_px - kLabelSpace_px, kHeight_px, kMargin_px);
   draw_walls(svg, frame, *scene.world, "wall");
   if (scene.truth) draw_path(svg, frame, positions_m(*scene.truth, Pose2()), "hint");

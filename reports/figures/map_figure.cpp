@@ -76,10 +76,7 @@ std::vector<Panel> load_panels(const Cases& cases, const std::string& dataset,
 Bounds panel_bounds(const Panel& panel) {
   Bounds bounds;
   if (panel.scene.world) {
-    for (const simulation::Segment& wall : panel.scene.world->walls) {
-      bounds.include(wall.a_m);
-      bounds.include(wall.b_m);
-    }
+    include(*panel.scene.world, bounds);
   }
   if (!panel.scene.map) return bounds;
   const Bounds map = occupied_bounds(*panel.scene.map, panel.scene.T_world_map);

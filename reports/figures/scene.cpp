@@ -133,12 +133,20 @@ void draw_path(Svg& svg, const PlaneFrame& frame, const std::vector<Eigen::Vecto
   svg.polyline(points_px, classes);
 }
 
+void include(const simulation::World& world, Bounds& bounds) {
+  for (const auto& line : simulation::outlines_m(world)) {
+    for (const Eigen::Vector2d& point_m : line) bounds.include(point_m);
+  }
+}
+
 void draw_walls(Svg& svg, const PlaneFrame& frame, const simulation::World& world,
                 std::string_view classes) {
-  for (const simulation::Segment& wall : world.walls) {
-    const Eigen::Vector2d a_px = frame(wall.a_m);
-    const Eigen::Vector2d b_px = frame(wall.b_m);
-    svg.line(a_px.x(), a_px.y(), b_px.x(), b_px.y(), classes);
+  for (const std::vector<Eigen::Vector2d>& line : simulation::outlines_m(world)) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const Eigen::Vector2d a_px = frame(line[i]);
+      const Eigen::Vector2d b_px = frame(line[i + 1]);
+      svg.line(a_px.x(), a_px.y(), b_px.x(), b_px.y(), classes);
+    }
   }
 }
 

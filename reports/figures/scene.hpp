@@ -34,6 +34,8 @@ std::vector<Eigen::Vector2d> positions_m(const Trajectory& trajectory, const Pos
 // A polyline of the plane; points closer than half a pixel to the one before are left out.
 void draw_path(Svg& svg, const PlaneFrame& frame, const std::vector<Eigen::Vector2d>& points_m,
                std::string_view classes);
+// Grows the bounds by every wall.
+void include(const simulation::World& world, Bounds& bounds);
 void draw_walls(Svg& svg, const PlaneFrame& frame, const simulation::World& world,
                 std::string_view classes);
 // A bar of a round length that is about a fifth of the width, with its length, at the lower left.

@@ -58,10 +58,7 @@ Bounds frame_bounds(const World& world) {
   Bounds core;
   for (const Eigen::Vector2d& point_m : world.truth_m) core.include(point_m);
   if (world.walls) {
-    for (const simulation::Segment& wall : world.walls->walls) {
-      core.include(wall.a_m);
-      core.include(wall.b_m);
-    }
+    include(*world.walls, core);
   }
   const Eigen::Vector2d growth_m =
       Eigen::Vector2d::Constant(kMaxGrowth_ratio * core.size_m().maxCoeff());

@@ -7,37 +7,38 @@
 namespace corridor::simulation {
 namespace {
 
-using Hits = std::vector<std::optional<RayCaster::Hit>>;
+using Hits = std::vector<std::optional<BeamHit>>;
 
-// Wall 0 lies along x, wall 1 along y, wall 2 along the diagonal.
-const World kWalls{.walls = {{{0, 0}, {4, 0}}, {{5, 0}, {5, 4}}, {{0, 0}, {3, 3}}},
-                   .corridor = std::nullopt};
+// Normals of wall 0 along x, wall 1 along y, wall 2 along the diagonal.
+const Eigen::Vector2d kNormals[] = {
+    {0, 1}, {-1, 0}, {-std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2}};
 
 Hits hits_on(std::initializer_list<std::pair<std::size_t, int>> wall_and_count) {
   Hits hits;
   for (const auto& [wall_index, count] : wall_and_count) {
-    hits.insert(hits.end(), static_cast<std::size_t>(count), RayCaster::Hit{1.0, wall_index});
+    hits.insert(hits.end(), static_cast<std::size_t>(count),
+                BeamHit{.range_m = 1.0, .normal = kNormals[wall_index]});
   }
   return hits;
 }
 
 TEST(DegenerateDirection, IsThatOfTheOnlyWallsSeen) {
-  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{0, 50}}), kWalls), 0, 1e-9);
-  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{1, 50}}), kWalls), std::numbers::pi / 2, 1e-9);
-  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{2, 50}}), kWalls), std::numbers::pi / 4, 1e-9);
+  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{0, 50}})), 0, 1e-9);
+  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{1, 50}})), std::numbers::pi / 2, 1e-9);
+  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{2, 50}})), std::numbers::pi / 4, 1e-9);
 }
 
 TEST(DegenerateDirection, IsNoneOnceMoreThanTwoPercentOfTheBeamsHitACrossWall) {
-  EXPECT_TRUE(degenerate_direction_rad(hits_on({{0, 99}, {1, 1}}), kWalls));
-  EXPECT_FALSE(degenerate_direction_rad(hits_on({{0, 97}, {1, 3}}), kWalls));
-  EXPECT_FALSE(degenerate_direction_rad(hits_on({{0, 50}, {1, 50}}), kWalls));
+  EXPECT_TRUE(degenerate_direction_rad(hits_on({{0, 99}, {1, 1}})));
+  EXPECT_FALSE(degenerate_direction_rad(hits_on({{0, 97}, {1, 3}})));
+  EXPECT_FALSE(degenerate_direction_rad(hits_on({{0, 50}, {1, 50}})));
 }
 
 TEST(DegenerateDirection, BeamsWithoutReturnSayNothing) {
   Hits hits = hits_on({{0, 97}, {1, 3}});
   hits.insert(hits.end(), 1000, std::nullopt);
-  EXPECT_FALSE(degenerate_direction_rad(hits, kWalls));
-  EXPECT_TRUE(degenerate_direction_rad(Hits(10, std::nullopt), kWalls));
+  EXPECT_FALSE(degenerate_direction_rad(hits));
+  EXPECT_TRUE(degenerate_direction_rad(Hits(10, std::nullopt)));
 }
 
 TEST(DegenerateIntervals, JoinConsecutiveScansOfOneDirection) {

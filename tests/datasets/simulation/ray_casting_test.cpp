@@ -74,8 +74,7 @@ RC_GTEST_PROP(RayCaster, HitLiesOnTheWallItNames, (std::uint64_t seed)) {
   RC_ASSERT(hit.has_value());
   const Eigen::Vector2d end_m =
       origin_m + hit->range_m * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
-  RC_ASSERT(clearance_m({.walls = {world.walls[hit->wall_index]}, .corridor = std::nullopt},
-                        end_m) < 2 * kExact_m);
+  RC_ASSERT(clearance_m(world_of({world.walls[hit->surface_index]}), end_m) < 2 * kExact_m);
 }
 
 TEST(RayCaster, MeasuresThePaperCorridorFromItsStart) {
@@ -99,8 +98,7 @@ TEST(RayCaster, SeesNothingBeyondItsRangeAndTheWallExactlyAtIt) {
 }
 
 TEST(RayCaster, RayAlongAWallMissesItAndMeetsTheNext) {
-  const RayCaster caster(
-      {.walls = {{{1, 0}, {3, 0}}, {{5, -1}, {5, 1}}}, .corridor = std::nullopt});
+  const RayCaster caster(world_of({{{1, 0}, {3, 0}}, {{5, -1}, {5, 1}}}));
   EXPECT_NEAR(*caster.range_m({0, 0}, 0, kFar_m), 5, kExact_m);
 }
 

@@ -116,7 +116,7 @@ TEST(ReferenceSlipLog, ItsWheelsTurnByTheRatioMoreThanTheRobotMoves) {
       odometry.interpolate(begin)->between(*odometry.interpolate(end)).translation_m().norm();
   const double true_m =
       log->truth->interpolate(begin)->between(*log->truth->interpolate(end)).translation_m().norm();
-  const double scale = 0.5 * (truth->left_scale + truth->right_scale);
+  const double scale = 0.5 * (truth->wheels.left_scale + truth->wheels.right_scale);
   // 0.4 m with 0.7 mm of noise.
   EXPECT_NEAR(odometry_m / true_m / scale, 1 + slip.ratio, 0.01);
 }

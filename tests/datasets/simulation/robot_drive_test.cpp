@@ -18,7 +18,7 @@ constexpr double kTight = 1e-9;
 
 Drive drive_of_seed(std::uint64_t seed, const DriveParams& params = {},
                     const CorridorShape& shape = {}) {
-  return drive_along(draw_plan(shape, params, Rng(seed)), params, kStep_s);
+  return drive_along(draw_plan(make_corridor(shape), params, Rng(seed)), params, kStep_s);
 }
 
 RC_GTEST_PROP(Drive, NeverBreaksTheLimitsOfTheRobot, (std::uint64_t seed)) {
@@ -96,8 +96,8 @@ RC_GTEST_PROP(Drive, StaysInsideCorridorsOfAnyAngle, (std::uint64_t seed)) {
 
 TEST(Drive, SeedsDifferInStartHeadingSpeedAndPath) {
   for (std::uint64_t seed = 1; seed < 10; ++seed) {
-    const DrivePlan one = draw_plan({}, {}, Rng(seed));
-    const DrivePlan other = draw_plan({}, {}, Rng(seed + 1));
+    const DrivePlan one = draw_plan(make_corridor({}), {}, Rng(seed));
+    const DrivePlan other = draw_plan(make_corridor({}), {}, Rng(seed + 1));
     EXPECT_NE(one.T_world_base_start.x_m(), other.T_world_base_start.x_m());
     EXPECT_NE(one.T_world_base_start.y_m(), other.T_world_base_start.y_m());
     EXPECT_NE(one.T_world_base_start.theta_rad(), other.T_world_base_start.theta_rad());
@@ -110,7 +110,7 @@ TEST(Drive, SeedsDifferInStartHeadingSpeedAndPath) {
 TEST(Drive, DrawsSpeedsUniformlyBetweenItsBounds) {
   std::vector<double> speeds_mps;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    speeds_mps.push_back(draw_plan({}, {}, Rng(seed)).speed_mps);
+    speeds_mps.push_back(draw_plan(make_corridor({}), {}, Rng(seed)).speed_mps);
   }
   const auto [least, most] = std::minmax_element(speeds_mps.begin(), speeds_mps.end());
   EXPECT_GE(*least, 0.4);

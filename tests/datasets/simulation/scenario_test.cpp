@@ -34,10 +34,10 @@ TEST(Scenarios, ShippedOnesAreReadableAndNamedLikeTheirFiles) {
 
 TEST(Scenarios, PaperCorridorIsThePapersAtARangeOf4500mm) {
   const Scenario scenario = shipped_scenario("paper-corridor");
-  EXPECT_EQ(scenario.world.a_m, 14.5);
-  EXPECT_EQ(scenario.world.b_m, 21.0);
-  EXPECT_EQ(scenario.world.c_m, 5.0);
-  EXPECT_NEAR(scenario.world.alpha_rad, std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(scenario.world.corridor->a_m, 14.5);
+  EXPECT_EQ(scenario.world.corridor->b_m, 21.0);
+  EXPECT_EQ(scenario.world.corridor->c_m, 5.0);
+  EXPECT_NEAR(scenario.world.corridor->alpha_rad, std::numbers::pi / 2, 1e-15);
   EXPECT_EQ(scenario.lidar.range_max_m, 4.5);
   EXPECT_EQ(scenario.slip.num_slips, 0);
 }
@@ -62,7 +62,7 @@ TEST(ReadScenario, KeepsTheDefaultsOfWhatIsNotGiven) {
   EXPECT_EQ(scenario->name, "short");
   EXPECT_EQ(scenario->lidar.range_max_m, 6);
   EXPECT_EQ(scenario->lidar.num_beams, 360);
-  EXPECT_EQ(scenario->world, CorridorShape{});
+  EXPECT_EQ(scenario->world.corridor, CorridorShape{});
 }
 
 TEST(ReadScenario, NamesEveryProblemWithItsLine) {
@@ -127,7 +127,7 @@ TEST(ScenarioRules, ListAllRangesBrokenAtOnce) {
   Scenario scenario;
   scenario.lidar.range_max_m = 0;
   scenario.wheels.track_m = -1;
-  scenario.imu.gyro_noise_radps = -1;
+  scenario.imu.gyro_noise_radps_rthz = -1;
   scenario.drive.speed_min_mps = 0.7;
   scenario.name.clear();
   // lidar.range_max_m breaks its range and its relation to range_min_m.
@@ -140,7 +140,7 @@ TEST(ScenarioOverrides, SetValuesByTheirKeyInTheFile) {
       "test");
   ASSERT_TRUE(scenario) << error_of(scenario);
   EXPECT_EQ(scenario->lidar.range_max_m, 6);
-  EXPECT_NEAR(scenario->world.alpha_rad, 80 * std::numbers::pi / 180, 1e-15);
+  EXPECT_NEAR(scenario->world.corridor->alpha_rad, 80 * std::numbers::pi / 180, 1e-15);
   EXPECT_EQ(scenario->draw.length_spread, 0.1);
 }
 
@@ -155,7 +155,7 @@ TEST(ScenarioOverrides, NameUnknownKeysAndUnreadableValuesTogether) {
 
 TEST(ScenarioValues, GiveTheSameScenarioBackAsOverrides) {
   Scenario scenario = shipped_scenario("paper-corridor-slip");
-  scenario.world.alpha_rad = 1.234;
+  scenario.world.corridor->alpha_rad = 1.234;
   ParamValues values = scenario_values(scenario);
   values.erase("name");
   values.erase("description");

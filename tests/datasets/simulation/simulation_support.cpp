@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace corridor::simulation::testing {
 namespace {
@@ -73,15 +74,43 @@ Eigen::Vector2d random_point_inside(const CorridorShape& shape, Rng& rng) {
   const Segment& wall = rng.uniform() < 0.5 ? key.lower_outer : key.right_outer;
   const Eigen::Vector2d along = (wall.b_m - wall.a_m).normalized();
   const Eigen::Vector2d inward(-along.y(), along.x());
-  const World plain{.walls = {key.lower_outer, key.right_outer, key.top_end, key.right_inner,
-                              key.lower_inner, key.left_end},
-                    .corridor = std::nullopt};
+  const World plain = world_of({key.lower_outer, key.right_outer, key.top_end, key.right_inner,
+                                key.lower_inner, key.left_end});
   for (;;) {
     // Next to a wall of either arm; where the arms meet at an angle this may lie beyond the other.
     const Eigen::Vector2d point_m = wall.a_m + rng.uniform(0.1, wall.length_m() - 0.1) * along +
                                     rng.uniform(0.1, shape.c_m - 0.1) * inward;
     if (is_inside(plain.walls, point_m) && clearance_m(plain, point_m) > 0.05) return point_m;
   }
+}
+
+DriveState cruising(double speed_mps, double yaw_rate_radps) {
+  return {.T_world_base = {},
+          .speed_mps = speed_mps,
+          .wheel_speed_mps = speed_mps,
+          .yaw_rate_radps = yaw_rate_radps};
+}
+
+double allan_deviation(const std::vector<double>& samples, std::size_t num_per_cluster) {
+  std::vector<double> means;
+  for (std::size_t i = 0; i + num_per_cluster <= samples.size(); i += num_per_cluster) {
+    double sum = 0;
+    for (std::size_t k = i; k < i + num_per_cluster; ++k) sum += samples[k];
+    means.push_back(sum / static_cast<double>(num_per_cluster));
+  }
+  double sum = 0;
+  for (std::size_t i = 1; i < means.size(); ++i) sum += std::pow(means[i] - means[i - 1], 2);
+  return std::sqrt(0.5 * sum / static_cast<double>(means.size() - 1));
+}
+
+double allan_tolerance(std::size_t num_clusters) {
+  return 5 / std::sqrt(static_cast<double>(num_clusters));
+}
+
+World world_of(std::vector<Segment> walls) {
+  World world;
+  world.walls = std::move(walls);
+  return world;
 }
 
 double clearance_m(const World& world, const Eigen::Vector2d& point_m) {
@@ -93,6 +122,10 @@ double clearance_m(const World& world, const Eigen::Vector2d& point_m) {
     least_m = std::min(least_m, (wall.a_m + ratio * along - point_m).norm());
   }
   return least_m;
+}
+
+double five_sigma(std::size_t num_samples) {
+  return 5 / std::sqrt(2.0 * static_cast<double>(num_samples));
 }
 
 double mean(const std::vector<double>& values) {

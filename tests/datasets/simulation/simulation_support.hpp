@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "datasets/simulation/robot_drive.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "datasets/simulation/world.hpp"
 #include "slam/core/rng.hpp"
@@ -16,8 +17,23 @@ CorridorShape random_shape(Rng& rng);
 // A point inside the corridor, at least 5 cm from its walls.
 Eigen::Vector2d random_point_inside(const CorridorShape& shape, Rng& rng);
 
+// A robot that moves evenly and whose wheels grip.
+DriveState cruising(double speed_mps, double yaw_rate_radps = 0);
+
+// Square root of half the mean square difference of neighbouring means over so many samples.
+double allan_deviation(const std::vector<double>& samples, std::size_t num_per_cluster);
+// More than five standard errors of an Allan deviation from so many clusters, as a part of it: the
+// standard error is 0.87 / sqrt(n) for white noise, up to 1 / sqrt(n) for slower noise.
+double allan_tolerance(std::size_t num_clusters);
+
+// A world of these walls, without materials and without a route.
+World world_of(std::vector<Segment> walls);
+
 // Distance from a point to the nearest wall [m].
 double clearance_m(const World& world, const Eigen::Vector2d& point_m);
+
+// Five standard errors of a standard deviation estimated from n normal samples, as a part of it.
+double five_sigma(std::size_t num_samples);
 
 double mean(const std::vector<double>& values);
 double standard_deviation(const std::vector<double>& values);

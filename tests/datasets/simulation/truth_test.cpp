@@ -28,7 +28,7 @@ TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
-  EXPECT_EQ(again->left_scale, simulated.truth.left_scale);
+  EXPECT_EQ(again->wheels.left_scale, simulated.truth.wheels.left_scale);
   EXPECT_EQ(again->T_world_base_start, simulated.truth.T_world_base_start);
   EXPECT_EQ(again->slips.size(), 3u);
   EXPECT_EQ(again->slips[1].begin_s, simulated.truth.slips[1].begin_s);
@@ -41,7 +41,7 @@ TEST(Truth, IsTheWorldFileOfItsLog) {
   const Simulated simulated = simulate(shipped_scenario("paper-corridor-vary"), 5);
   const auto world = read_world(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(world) << world.error().to_line();
-  EXPECT_EQ(world->corridor->b_m, simulated.truth.world.b_m);
+  EXPECT_EQ(world->corridor->b_m, simulated.truth.world.corridor->b_m);
 }
 
 TEST(Truth, OfAnotherSimulatorIsReadWithoutDegenerateIntervals) {
@@ -49,7 +49,7 @@ TEST(Truth, OfAnotherSimulatorIsReadWithoutDegenerateIntervals) {
   const auto truth = read_truth(folder.write("log.truth.toml", kForeignTruth));
   ASSERT_TRUE(truth) << truth.error().to_line();
   EXPECT_FALSE(truth->degenerate);
-  EXPECT_EQ(truth->right_scale, 0.998519);
+  EXPECT_EQ(truth->wheels.right_scale, 0.998519);
   EXPECT_EQ(truth->slips.size(), 1u);
   EXPECT_EQ(truth->slips[0].ratio, 0.6);
 }

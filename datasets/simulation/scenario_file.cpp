@@ -1,0 +1,307 @@
+// Scenario files: bases, presets, families.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "datasets/formats/ros_map.hpp"
+#include "datasets/simulation/scenario_sections.hpp"
+#include "datasets/simulation/toml_input.hpp"
+#include "datasets/simulation/world_table.hpp"
+
+namespace corridor::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxBases = 8;  // a chain longer than this goes round in a circle
+
+class ScenarioReader {
+ public:
+  explicit ScenarioReader(const fs::path& path) : path_(path) {}
+
+  // Onto the values of `scenario`.
+  Result<Scenario> read(Scenario scenario, int num_bases) {
+    const Result<toml::table> document = parse_toml(path_);
+    if (!document) return tl::make_unexpected(document.error());
+    document_ = &*document;
+    if (Result<void> based = read_base(scenario, num_bases); !based) {
+      return tl::make_unexpected(based.error());
+    }
+    scenario.name = path_.stem().string();
+    read_text("name", scenario.name);
+    read_text("description", scenario.description);
+    read_world_section(scenario);
+    const bool is_world_read =
+        problems_.empty();  // else its rules would only repeat that it is not
+    for_each_section(scenario, [&](const char* section, auto& params) {
+      if (std::string_view(section) == "world") return;
+      known_.emplace_back(section);
+      read_section(section, params);
+    });
+    find_unknown_keys(*document_, "", known_, problems_);
+    if (is_world_read) {
+      for (std::string& line : violations(scenario)) {
+        const std::uint32_t line_number = line_of_violation(line);
+        problems_.push_back({line_number, std::move(line)});
+      }
+    }
+    if (!problems_.empty()) return tl::make_unexpected(to_error(path_, problems_));
+    return scenario;
+  }
+
+ private:
+  Result<void> read_base(Scenario& scenario, int num_bases) {
+    std::string base;
+    read_text("base", base);
+    if (base.empty()) return {};
+    if (num_bases == kMaxBases) {
+      return fail(ErrorCode::kInvalid,
+                  fmt::format("more than {} scenarios on one another", kMaxBases), path_.string(),
+                  "bases that do not go round in a circle");
+    }
+    std::error_code error;
+    const fs::path beside = path_.parent_path() / base;
+    const Result<fs::path> base_path =
+        fs::is_regular_file(beside, error) ? Result<fs::path>(beside) : find_scenario(base);
+    if (!base_path) return tl::make_unexpected(base_path.error());
+    Result<Scenario> read = ScenarioReader(*base_path).read(std::move(scenario), num_bases + 1);
+    if (!read) return tl::make_unexpected(read.error());
+    scenario = std::move(*read);
+    return {};
+  }
+
+  void read_text(const char* key, std::string& text) {
+    known_.emplace_back(key);
+    const toml::node* node = document_->get(key);
+    if (node != nullptr && !read_value(*node, text)) {
+      problem(*node, fmt::format("{} has another type; expected text", key));
+    }
+  }
+
+  void read_world_section(Scenario& scenario) {
+    known_.emplace_back("world");
+    known_.emplace_back("family");
+    const toml::node* node = document_->get("world");
+    if (node == nullptr) return;
+    const toml::table* table = node->as_table();
+    if (table == nullptr) {
+      problem(*node, "world is not a table; expected [world]");
+    } else if (table->contains("map")) {
+      scenario.world = read_map(*table);
+    } else if (table->contains("polygons") || table->contains("arcs")) {
+      scenario.world = read_world_table(*table, problems_);
+    } else {
+      CorridorShape shape = scenario.world.corridor.value_or(CorridorShape{});
+      WorldParams params = to_params(shape);
+      read_table(*table, "world", MissingKeys::kKeepDefault, params, problems_);
+      shape = to_shape(params);
+      scenario.world = World{};
+      scenario.world.corridor = shape;
+      if (violations(shape).empty()) scenario.world = make_corridor(shape);
+    }
+  }
+
+  World read_map(const toml::table& table) {
+    find_unknown_keys(table, "world", {"map", "route_m"}, problems_);
+    std::string name;
+    World world;
+    if (!read_value(*table.get("map"), name)) {
+      problem(*table.get("map"), "world.map has another type; expected the name of a yaml file");
+      return world;
+    }
+    const Result<GridMap> map = formats::read_ros_map(path_.parent_path() / name);
+    if (!map) {
+      problem(*table.get("map"), map.error().to_line());
+      return world;
+    }
+    world = traced_world(*map);
+    if (const toml::node* route = table.get("route_m")) {
+      world.route_m = read_points(*route, "world.route_m", problems_);
+    }
+    return world;
+  }
+
+  template <class P>
+  void read_section(const char* section, P& params) {
+    const toml::node* node = document_->get(section);
+    if (node == nullptr) return;
+    const toml::table* table = node->as_table();
+    if (table == nullptr) {
+      problem(*node, fmt::format("{} is not a table; expected [{}]", section, section));
+      return;
+    }
+    if (const toml::node* preset = table->get("preset")) read_preset(section, *preset, params);
+    read_table(*table, section, MissingKeys::kKeepDefault, params, problems_, {"preset"});
+  }
+
+  template <class P>
+  void read_preset(const char* section, const toml::node& node, P& params) {
+    std::string name;
+    if (!read_value(node, name)) {
+      problem(node, fmt::format("{}.preset has another type; expected text", section));
+      return;
+    }
+    const Result<toml::table> presets = parse_toml(presets_path());
+    if (!presets) {
+      problem(node, presets.error().to_line());
+      return;
+    }
+    const toml::table* of_section = presets->get_as<toml::table>(section);
+    const toml::table* preset =
+        of_section == nullptr ? nullptr : of_section->get_as<toml::table>(name);
+    if (preset == nullptr) {
+      problem(node, fmt::format("unknown preset {}.{}; expected one of {}", section, name,
+                                fmt::join(names_in(of_section), " ")));
+      return;
+    }
+    read_table(*preset, section, MissingKeys::kKeepDefault, params, problems_, {"title", "source"});
+  }
+
+  static fs::path presets_path() {
+    return fs::path(CORRIDOR_SCENARIO_DIR) / "presets" / "sensors.toml";
+  }
+
+  static std::vector<std::string> names_in(const toml::table* table) {
+    std::vector<std::string> names;
+    if (table == nullptr) return names;
+    for (const auto& [key, value] : *table) names.emplace_back(key.str());
+    return names;
+  }
+
+  // "lidar.range_max_m = 3: expected ..." stands in the line of that key.
+  std::uint32_t line_of_violation(std::string_view violation) const {
+    const std::size_t point = violation.find('.');
+    const std::size_t space = violation.find(' ');
+    if (point == std::string_view::npos || space == std::string_view::npos || point > space) {
+      return 0;
+    }
+    return line_of(*document_, violation.substr(0, point),
+                   violation.substr(point + 1, space - point - 1));
+  }
+
+  void problem(const toml::node& node, std::string text) {
+    problems_.push_back({node.source().begin.line, std::move(text)});
+  }
+
+  fs::path path_;
+  const toml::table* document_ = nullptr;
+  std::vector<std::string> known_;
+  std::vector<TomlProblem> problems_;
+};
+
+struct Family {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+// nullopt: a plain scenario.
+Result<std::optional<Family>> read_family(const fs::path& path) {
+  const Result<toml::table> document = parse_toml(path);
+  if (!document) return tl::make_unexpected(document.error());
+  const toml::node* node = document->get("family");
+  if (node == nullptr) return std::optional<Family>();
+  std::vector<TomlProblem> problems;
+  const auto problem = [&](const toml::node& at, std::string text) {
+    problems.push_back({at.source().begin.line, std::move(text)});
+  };
+  Family family;
+  if (const toml::table* table = node->as_table()) {
+    find_unknown_keys(*table, "family", {"key", "values"}, problems);
+    const toml::node* key = table->get("key");
+    const toml::node* values = table->get("values");
+    if (key == nullptr || !read_value(*key, family.key)) {
+      problem(*table, "family.key: expected a parameter, as \"lidar.range_max_m\"");
+    }
+    const toml::array* list = values == nullptr ? nullptr : values->as_array();
+    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+      double number = 0;
+      if (read_value(*list->get(i), number)) {
+        family.values.push_back(fmt::format("{}", number));
+      } else {
+        problem(*list->get(i), "family.values: expected numbers");
+      }
+    }
+    if (family.values.empty()) problem(*table, "family.values: expected a list of numbers");
+  } else {
+    problem(*node, "family is not a table; expected [family]");
+  }
+  if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
+  return std::optional<Family>(std::move(family));
+}
+
+struct NameParts {
+  std::string file, member;
+};
+
+// The last '@' parts a member's value from the name, unless a file has it in its name.
+NameParts parts_of(const std::string& name) {
+  std::error_code error;
+  const std::size_t at = name.rfind('@');
+  if (at == std::string::npos || fs::is_regular_file(name, error)) return {name, ""};
+  return {name.substr(0, at), name.substr(at + 1)};
+}
+
+}  // namespace
+
+Result<Scenario> read_scenario(const fs::path& path) { return ScenarioReader(path).read({}, 0); }
+
+std::vector<fs::path> list_scenarios() {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(CORRIDOR_SCENARIO_DIR, error)) {
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+Result<fs::path> find_scenario(const std::string& name_or_path) {
+  std::error_code error;
+  const std::string file = parts_of(name_or_path).file;
+  std::vector<std::string> known;
+  for (const fs::path& path : list_scenarios()) {
+    if (path.stem() == file) return path;
+    known.push_back(path.stem().string());
+  }
+  if (fs::is_regular_file(file, error)) return fs::path(file);
+  return fail(ErrorCode::kNotFound, "no such scenario", name_or_path,
+              fmt::format("a file or one of {}", fmt::join(known, " ")));
+}
+
+Result<std::vector<std::string>> scenario_members(const std::string& name_or_path) {
+  const NameParts parts = parts_of(name_or_path);
+  if (!parts.member.empty()) return std::vector<std::string>{name_or_path};
+  const Result<fs::path> path = find_scenario(name_or_path);
+  if (!path) return tl::make_unexpected(path.error());
+  const Result<std::optional<Family>> family = read_family(*path);
+  if (!family) return tl::make_unexpected(family.error());
+  if (!*family) return std::vector<std::string>{name_or_path};
+  std::vector<std::string> members;
+  for (const std::string& value : (*family)->values)
+    members.push_back(fmt::format("{}@{}", name_or_path, value));
+  return members;
+}
+
+Result<Scenario> load_scenario(const std::string& name_or_path) {
+  const NameParts parts = parts_of(name_or_path);
+  const Result<fs::path> path = find_scenario(name_or_path);
+  if (!path) return tl::make_unexpected(path.error());
+  Result<Scenario> scenario = read_scenario(*path);
+  if (!scenario) return scenario;
+  const Result<std::optional<Family>> family = read_family(*path);
+  if (!family) return tl::make_unexpected(family.error());
+  if (!*family && parts.member.empty()) return scenario;
+  if (!*family) {
+    return fail(ErrorCode::kNotFound, "the scenario has no members", name_or_path, parts.file);
+  }
+  const std::vector<std::string>& values = (*family)->values;
+  if (std::find(values.begin(), values.end(), parts.member) == values.end()) {
+    return fail(ErrorCode::kNotFound, "a family of scenarios needs one of its members",
+                name_or_path, fmt::format("{}@ and one of {}", parts.file, fmt::join(values, " ")));
+  }
+  scenario->name += fmt::format("@{}", parts.member);
+  return with_overrides(std::move(*scenario), {{(*family)->key, parts.member}}, path->string());
+}
+
+}  // namespace corridor::simulation

@@ -1,0 +1,134 @@
+#include "datasets/simulation/message_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/simulation/simulate.hpp"
+#include "tests/datasets/simulation/simulation_support.hpp"
+
+namespace corridor::simulation::testing {
+namespace {
+
+// Stamp minus moment of those that arrive, 10 ms apart from 1 s on.
+std::vector<double> delays_s(const MessageParams& params, double offset_s, int num_moments) {
+  MessagePath path(params, offset_s, Rng(1));
+  std::vector<double> delays;
+  for (int k = 0; k < num_moments; ++k) {
+    const Timestamp moment = timestamp_from_seconds(1 + 0.01 * k);
+    if (const auto stamp = path.stamp_of(moment)) {
+      delays.push_back(seconds_between(moment, *stamp));
+    }
+  }
+  return delays;
+}
+
+TEST(MessagePath, WithoutErrorsStampsTheMomentItself) {
+  for (const double delay_s : delays_s({}, 0, 100)) EXPECT_EQ(delay_s, 0);
+}
+
+TEST(MessagePath, OffsetIsAddedToEveryStamp) {
+  for (const double offset_s : {-0.037, 0.25}) {
+    for (const double delay_s : delays_s({}, offset_s, 100)) EXPECT_NEAR(delay_s, offset_s, 1e-9);
+  }
+}
+
+TEST(MessagePath, JitterHasTheStatedSigma) {
+  // A tenth of the time between the moments, so that none has to be put in order.
+  const auto delays = delays_s({.time_jitter_s = 0.001}, 0.1, 10000);
+  ASSERT_EQ(delays.size(), 10000u);
+  EXPECT_NEAR(standard_deviation(delays), 0.001, 0.001 * five_sigma(delays.size()));
+  EXPECT_NEAR(mean(delays), 0.1, 5 * 0.001 / std::sqrt(10000.0));
+}
+
+TEST(MessagePath, StampsStayInOrderHoweverLargeTheJitter) {
+  MessagePath path({.time_jitter_s = 0.1, .loss_ratio = 0.2}, 0, Rng(3));
+  Timestamp last{-1};
+  int num_crowded = 0;
+  for (int k = 0; k < 5000; ++k) {
+    const auto stamp = path.stamp_of(timestamp_from_seconds(0.01 * k));
+    if (!stamp) continue;
+    ASSERT_GT(*stamp, last);
+    num_crowded += stamp->nanoseconds - last.nanoseconds == 1000;
+    last = *stamp;
+  }
+  EXPECT_GT(num_crowded, 100);
+}
+
+TEST(MessagePath, LosesTheStatedShare) {
+  const double num_arrived = static_cast<double>(delays_s({.loss_ratio = 0.3}, 0, 10000).size());
+  EXPECT_NEAR(num_arrived / 10000, 0.7, 5 * std::sqrt(0.3 * 0.7 / 10000));
+}
+
+TEST(MessagePath, NothingIsStampedBeforeTheLogBegins) {
+  MessagePath path({}, -0.5, Rng(1));
+  EXPECT_FALSE(path.stamp_of(timestamp_from_seconds(0.4)));
+  EXPECT_EQ(path.stamp_of(timestamp_from_seconds(0.6)), timestamp_from_seconds(0.1));
+}
+
+TEST(SensorClocks, LidarOffsetMovesItsStampsAndNothingElse) {
+  Scenario scenario;
+  const Simulated plain = simulate(scenario, 2);
+  scenario.lidar.time_offset_s = 0.03;
+  const Simulated moved = simulate(scenario, 2);
+  EXPECT_EQ(moved.truth.lidar_time_offset_s, 0.03);
+  EXPECT_EQ(moved.log.robot.lidar.time_offset_s, 0.03);
+  ASSERT_EQ(plain.log.num_scans(), moved.log.num_scans());
+  for (std::size_t k = 0; k < plain.log.num_scans(); ++k) {
+    const TrajectoryPose& before = (*plain.log.truth)[k];
+    const TrajectoryPose& after = (*moved.log.truth)[k];
+    EXPECT_EQ(after.stamp.nanoseconds - before.stamp.nanoseconds, 30'000'000);
+    EXPECT_EQ(after.T_map_base, before.T_map_base);
+  }
+}
+
+TEST(SensorClocks, UnstatedOffsetsHaveTheStatedSpread) {
+  Scenario scenario;
+  scenario.drive.stays = true;
+  scenario.drive.stand_s = 0.5;
+  scenario.lidar.num_beams = 4;
+  scenario.lidar.time_offset_s = 0.1;
+  scenario.lidar.time_offset_sigma_s = 0.005;
+  scenario.imu.time_offset_sigma_s = 0.002;
+  std::vector<double> lidar_s, imu_s;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Simulated simulated = simulate(scenario, seed);
+    EXPECT_EQ(simulated.log.robot.lidar.time_offset_s, 0.1);  // the log does not know the rest
+    const Timestamp last_scan = (*simulated.log.truth)[simulated.log.truth->size() - 1].stamp;
+    lidar_s.push_back(to_seconds(last_scan) - 0.5);
+    Timestamp last_imu;
+    for (const SensorEvent& event : simulated.log.events) {
+      if (std::holds_alternative<ImuSample>(event)) last_imu = stamp_of(event);
+    }
+    imu_s.push_back(to_seconds(last_imu) - 0.5);
+  }
+  EXPECT_NEAR(mean(lidar_s), 0.1, 5 * 0.005 / std::sqrt(1000.0));
+  EXPECT_NEAR(standard_deviation(lidar_s), 0.005, 0.005 * five_sigma(lidar_s.size()));
+  EXPECT_NEAR(standard_deviation(imu_s), 0.002, 0.002 * five_sigma(imu_s.size()));
+}
+
+// Ticks count on while messages are lost: those that arrive are those of a log without losses.
+TEST(SensorClocks, LostWheelMessagesLoseNoPath) {
+  Scenario scenario;
+  const Simulated whole = simulate(scenario, 4);
+  scenario.wheels.message.loss_ratio = 0.3;
+  const Simulated lossy = simulate(scenario, 4);
+  std::size_t num_compared = 0;
+  auto event = whole.log.events.begin();
+  for (const SensorEvent& arrived : lossy.log.events) {
+    const auto* sample = std::get_if<WheelSample>(&arrived);
+    if (sample == nullptr) continue;
+    while (!std::holds_alternative<WheelSample>(*event) || stamp_of(*event) < sample->stamp) {
+      ++event;
+    }
+    EXPECT_EQ(std::get<WheelSample>(*event).ticks->left, sample->ticks->left);
+    ++num_compared;
+  }
+  const auto num_sent = static_cast<double>(whole.log.num_wheel_samples());
+  EXPECT_NEAR(static_cast<double>(num_compared) / num_sent, 0.7,
+              5 * std::sqrt(0.3 * 0.7 / num_sent));
+}
+
+}  // namespace
+}  // namespace corridor::simulation::testing
