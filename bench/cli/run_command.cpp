@@ -113,7 +113,7 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--set", overrides, "Parameter of a system; repeat")
       ->type_name("SYSTEM.key=value");
   command.add_flag("--resume", is_resumed,
-                   "Keep cases in DIR that are finished and were run by this revision");
+                   "Keep cases in DIR that are finished and were run by this build of the program");
   command.add_flag("--no-report", has_no_report, "Leave out tables, figures and page");
   command.add_option("--executor", executor, "local: processes on this machine");
   common.add_to(command);

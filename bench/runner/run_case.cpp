@@ -10,6 +10,7 @@
 #include "bench/metrics/score_case.hpp"
 #include "bench/results/digest.hpp"
 #include "bench/results/machine.hpp"
+#include "bench/runner/build_id.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/case_files.hpp"
 #include "bench/runner/cost.hpp"
@@ -174,6 +175,7 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
   result.jobs = jobs;
   result.overrides = spec.overrides;
   result.git_revision = git_revision();
+  result.build_id = build_id();
   result.machine_id = results::this_machine().machine_id;
   if (const Result<SystemInfo> info = find_system(spec.system)) {
     const Result<ParamValues> values = info->resolve(spec.profile, spec.overrides);
