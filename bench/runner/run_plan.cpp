@@ -273,6 +273,9 @@ Result<RunSummary> run_plan(const Plan& plan, const FolderLock& out, const RunOp
   if (!earlier) return tl::make_unexpected(earlier.error());
   Result<WorkFolder> work = WorkFolder::create(folder);
   if (!work) return tl::make_unexpected(work.error());
+  // A page that lacks what is about to be run would look final if this run were killed.
+  std::error_code ignored;
+  fs::remove(folder / "index.html", ignored);
   return PlanRun(plan, folder, options, std::move(*work), std::move(*store))
       .run(plan.cases, *earlier);
 }

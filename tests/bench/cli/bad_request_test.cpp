@@ -118,6 +118,7 @@ TEST(BadRequest, FilesThatCannotBeReadOrWritten) {
   expect_refused(folder, "simulate paper-corridor --out x.txt", {"x.txt", ".rawlog"});
   expect_refused(folder, "convert no.clf x.rawlog", {"no.clf"});
   expect_refused(folder, "report nowhere --out r", {"nowhere"});
+  expect_refused(folder, "report nowhere --out r/s/", {"nowhere"});
 }
 
 TEST(BadRequest, ASimulationThatCannotBeWrittenLeavesTheFilesThatWereThere) {

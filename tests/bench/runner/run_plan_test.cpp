@@ -179,6 +179,12 @@ TEST_F(RunPlanTest, DoesNotTakeTheRecordOfAnEarlierRunForThatOfACrash) {
   EXPECT_EQ(only_record().status, CaseStatus::kFailed);
 }
 
+TEST_F(RunPlanTest, RemovesThePageOfAnEarlierRun) {
+  folder_.write("out/index.html", "a page without this run's cases");
+  ASSERT_TRUE(run({spec_of(1)}, "exit 2").has_value());
+  EXPECT_FALSE(fs::exists(out() / "index.html"));
+}
+
 TEST_F(RunPlanTest, LeavesNothingButFinishedCases) {
   ASSERT_TRUE(run({spec_of(1), spec_of(2)}, "mkdir -p \"$4/runs/.half.partial\"; kill -KILL $$")
                   .has_value());
