@@ -104,7 +104,10 @@ void RunCommand::add_to(CLI::App& command) {
       ->check(CLI::Range(1, kMaxJobs));
   command.add_option("--seeds", num_seeds, "Number of seeds instead of the suite's")
       ->check(CLI::Range(1, 100000));
-  command.add_option("--seed", first_seed, "First seed instead of the suite's")->type_name("N");
+  command
+      .add_option("--seed", first_seed,
+                  "First seed instead of the suite's; those below 1000 are for development")
+      ->type_name("N");
   command.add_option("--system", systems, "System, S or S@PROFILE, instead of the suite's; repeat")
       ->type_name("S[@PROFILE]");
   command.add_option("--backend", backends, "Back-end instead of the systems' own; repeat");

@@ -136,6 +136,14 @@ TEST(Suites, OfTheTreeAreAllReadAndNamedAsTheirFiles) {
   }
 }
 
+TEST(Suites, OfTheTreeSimulateNoSeedThatIsForDevelopment) {
+  for (const std::filesystem::path& path : list_suites()) {
+    const Result<Suite> suite = read_suite(path);
+    ASSERT_TRUE(suite.has_value()) << suite.error().to_line();
+    EXPECT_TRUE(suite->scenarios.empty() || suite->first_seed > 1000) << path;
+  }
+}
+
 TEST(Suites, AreFoundByNameAndByPathAndTheKnownOnesAreNamed) {
   EXPECT_TRUE(find_suite("smoke").has_value());
   EXPECT_NE(find_suite("smoky").error().to_line().find("smoke"), std::string::npos);
