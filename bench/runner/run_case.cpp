@@ -82,6 +82,9 @@ std::vector<std::string> score(const CaseData& data, const Drive& run,
   if (data.world) evidence.world = &*data.world;
   evidence.lidar_range_m = lidar_range_m(data);
   std::vector<std::string> remarks = metrics::score_case(evidence, {}, result);
+  if (!data.log.truth && data.relations.empty()) {
+    remarks.emplace_back("not scored: the data set has neither true poses nor relations");
+  }
   if (data.simulation_truth) score_detection(run.health, *data.simulation_truth, result);
   return remarks;
 }

@@ -191,6 +191,21 @@ TEST(Report, LeavesAFolderToTheRunThatIsWritingToIt) {
       << answer.err;
 }
 
+TEST(Run, NotesThatADataSetWithoutTruthIsNotScored) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out mine.rawlog").exit_code, 0);
+  fs::remove(folder / "mine.tum");
+  fs::remove(folder / "mine.truth.toml");
+  const Answer answer =
+      run_program(folder, "run --system dead-reckoning --dataset mine.rawlog --out o --no-report");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto store = results::ResultsStore::open_read_only(folder / "o" / "results.sqlite");
+  const results::RunResult result = store->read_all().value().front();
+  EXPECT_EQ(result.status, results::CaseStatus::kOk);
+  EXPECT_EQ(result.notes, std::vector<std::string>{"not scored: the data set has neither true "
+                                                   "poses nor relations"});
+}
+
 TEST(Run, EndsWithOneIfACaseFails) {
   const ScratchFolder folder;
   folder.write("quick.toml",
