@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -58,6 +59,10 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& names) 
     if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
   }
   return once;
+}
+
+tl::unexpected<Error> at_option(std::string option, const Error& error) {
+  return fail(error.code, error.what, std::move(option), error.expected);
 }
 
 // Every --set says something that no other one says, about a system that is run.
@@ -154,13 +159,13 @@ Result<runner::Suite> RunCommand::requested_suite() const {
   if (!systems.empty()) requested.systems.clear();
   for (const std::string& text : systems) {
     const Result<runner::SystemChoice> choice = runner::parse_system_choice(text);
-    if (!choice) return tl::make_unexpected(choice.error());
+    if (!choice) return at_option("--system", choice.error());
     auto& chosen = requested.systems;
     if (std::find(chosen.begin(), chosen.end(), *choice) == chosen.end()) chosen.push_back(*choice);
   }
   for (const std::string& name : backends) {
     const Result<void> known = runner::check_back_end(name);
-    if (!known) return tl::make_unexpected(known.error());
+    if (!known) return at_option("--backend", known.error());
   }
   if (!backends.empty()) requested.backends = without_repeats(backends);
   if (!datasets.empty()) replace_data(without_repeats(datasets), requested);
