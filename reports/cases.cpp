@@ -31,9 +31,9 @@ std::size_t rank(const std::string& system) {
 }
 
 auto sort_key(const Series& series) {
-  return std::make_tuple(rank(series.system), series.system, series.profile != kShippedProfile,
-                         series.profile, series.backend, series.parameters_hash,
-                         series.git_revision);
+  return std::make_tuple(rank(series.system), series.system, !series.overrides.empty(),
+                         series.profile != kShippedProfile, series.profile, series.backend,
+                         series.overrides, series.parameters_hash, series.git_revision);
 }
 
 auto sort_key(const Case& entry) {
@@ -104,8 +104,12 @@ Result<void> read_run_dir(const fs::path& run_dir, std::vector<Case>& cases,
 }  // namespace
 
 Series series_of(const results::RunResult& result) {
-  return {result.system, result.profile, result.backend.value_or(""), result.parameters_hash,
-          result.git_revision};
+  std::string overrides;
+  for (const auto& [key, value] : result.overrides.value_or(std::map<std::string, std::string>())) {
+    overrides += fmt::format("{}{}={}", overrides.empty() ? "" : ", ", key, value);
+  }
+  return {result.system,          result.profile,      result.backend.value_or(""),
+          result.parameters_hash, result.git_revision, overrides};
 }
 
 World world_of(const results::RunResult& result) {

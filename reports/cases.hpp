@@ -1,5 +1,6 @@
 // All cases of a report, sorted and grouped: by data set, then by series (system, profile,
-// back-end, parameters, code revision). It computes no statistics (tables/summary.hpp).
+// back-end, parameters, what of them was set by hand, code revision). It computes no statistics
+// (tables/summary.hpp).
 #pragma once
 
 #include <compare>
@@ -30,6 +31,7 @@ struct Series {
   std::string backend = {};  // empty without one
   std::string parameters_hash = {};
   std::string git_revision = {};
+  std::string overrides = {};  // "key=value, ..." of what was set by hand; empty for nothing
 
   auto operator<=>(const Series&) const = default;
 };

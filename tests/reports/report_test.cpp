@@ -138,7 +138,7 @@ TEST_F(Report, PageAllowsOnlyItsOwnStyleSheetByItsHash) {
 TEST_F(Report, PageNamesMachineRevisionCommandsAndRawFiles) {
   for (const char* text :
        {"Test CPU", "0000000",
-        "corridor-bench run synthetic --jobs 1 --seed 1 --seeds 9 --out synthetic",
+        "corridor-bench run synthetic --jobs 1 --seed 1 --seeds 8 --out synthetic",
         "../run/results.sqlite", "tables/table1.csv", "figures/maps-synthetic", "num_particles",
         "runs/synthetic-karto-3/result.json"}) {
     EXPECT_THAT(page_, HasSubstr(text));
