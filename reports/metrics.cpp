@@ -100,8 +100,10 @@ Metric map_chamfer() {
 }
 
 Metric realtime_factor() {
-  return {"realtime_factor", "real-time factor", "1", 1,
-          [](const RunResult& result) { return result.realtime_factor; }};
+  Metric metric = {"realtime_factor", "times real time", "1", 1,
+                   [](const RunResult& result) { return result.realtime_factor; }};
+  metric.digits_max = 3;
+  return metric;
 }
 
 std::string name_of(KeyVariable variable) {
