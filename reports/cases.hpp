@@ -55,6 +55,9 @@ class Cases {
   Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
         std::vector<std::filesystem::path> run_dirs);
 
+  // Records of one series, data, seeds and number of threads are one experiment: the newest file of
+  // them stands, of equally old ones the last given. How many others were set aside.
+  [[nodiscard]] std::size_t num_set_aside() const { return num_set_aside_; }
   // Sorted by data set, series, data seed, system seed, case id.
   [[nodiscard]] const std::vector<Case>& all() const { return cases_; }
   [[nodiscard]] const std::vector<std::filesystem::path>& run_dirs() const { return run_dirs_; }
@@ -73,6 +76,7 @@ class Cases {
   std::vector<results::Machine> machines_;
   std::vector<std::filesystem::path> run_dirs_;
   std::map<Series, std::string> labels_;
+  std::size_t num_set_aside_ = 0;
 };
 
 // Reads results.sqlite of every directory or, where there is none, every runs/*/result.json. An
