@@ -132,6 +132,17 @@ void append_statistics(const Cases& cases, std::vector<std::string>& sentences) 
   }
 }
 
+// A collapsed map and a right one look alike in every table.
+void append_unscored(const Cases& cases, std::vector<std::string>& sentences) {
+  for (const std::string& dataset : cases.datasets()) {
+    if (tables::is_scored(cases, dataset)) continue;
+    sentences.push_back(fmt::format(
+        "{}: not scored: no true poses, no relations. That a system ended there does not say that "
+        "its map is right.",
+        dataset));
+  }
+}
+
 // What the runner noted about the scores, once for all cases that it holds for.
 void append_score_notes(const Cases& cases, std::vector<std::string>& sentences) {
   std::map<std::pair<std::string, std::string>, int> num_cases;
@@ -145,6 +156,12 @@ void append_score_notes(const Cases& cases, std::vector<std::string>& sentences)
 }
 
 void append_provenance(const Cases& cases, std::vector<std::string>& sentences) {
+  if (cases.num_set_aside() > 0) {
+    sentences.push_back(fmt::format(
+        "{} record{} set aside: another one of the same system, parameters, revision, data and "
+        "seeds is newer.",
+        cases.num_set_aside(), cases.num_set_aside() == 1 ? " was" : "s were"));
+  }
   std::set<std::string> revisions;
   for (const Case& entry : cases.all()) revisions.insert(entry.result.git_revision);
   if (revisions.size() > 1) {
@@ -168,6 +185,7 @@ std::vector<std::string> caveats(const Cases& cases) {
   append_configuration(cases, sentences);
   append_sensors(cases, sentences);
   append_world(cases, sentences);
+  append_unscored(cases, sentences);
   append_statistics(cases, sentences);
   for (const std::string& note : reports::timing_notes(cases))
     sentences.push_back(fmt::format("Times: {}", note));
