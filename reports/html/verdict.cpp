@@ -182,6 +182,17 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
       }
     }
   }
+  const auto num_unscored =
+      std::count_if(cases.all().begin(), cases.all().end(), [&](const reports::Case& entry) {
+        return entry.result.status == results::CaseStatus::kOk &&
+               !tables::is_scored(cases, entry.result.dataset);
+      });
+  if (num_unscored > 0) {
+    sentences.insert(sentences.begin(),
+                     fmt::format("{} of those that ended are not scored: no true poses, no "
+                                 "relations.",
+                                 num_unscored));
+  }
   const std::size_t num = cases.all().size();
   sentences.insert(
       sentences.begin(),

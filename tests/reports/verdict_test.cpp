@@ -123,6 +123,7 @@ TEST(Verdicts, OfDataWithoutTruthSendTheReaderToTheMaps) {
   all[0].result.final_scores = all[0].result.online_scores = {};
   const Cases cases(all, {}, {});
   EXPECT_THAT(all_sentences(cases), Contains("malaga: no truth is known; look at the maps."));
+  EXPECT_THAT(all_sentences(cases), Contains(StartsWith("1 of those that ended are not scored")));
   const tables::Table table = tables::outcome_table(cases);
   EXPECT_THAT(tables::to_csv(table), HasSubstr("malaga,karto,1,0,0,0,0,0,0,0,1"));
   EXPECT_THAT(table.notes, Contains(StartsWith("ended; not scored: no true poses, no relations.")));
