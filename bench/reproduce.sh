@@ -16,6 +16,14 @@ jobs=$(corridor_jobs)
 out=$corridor_root/reports/out/paper
 cd "$corridor_root"
 
+# Takes the results folder away from nobody; the lock stays with this script while it renames.
+lock_out() {
+  [ -e "$out/.lock" ] || return 0
+  exec 9>"$out/.lock"
+  flock --nonblock 9 || corridor_die "$out: another run is writing to this folder; expected its end"
+}
+(lock_out)
+
 build() {
   cmake --preset release &&
     cmake --build --preset release --target corridor-bench --parallel "$jobs"
@@ -24,7 +32,9 @@ build() {
 run_suite() {
   mkdir -p "$(dirname "$out")" || return
   if [ -e "$out" ]; then
-    rm -rf "$out.previous" && mv "$out" "$out.previous" || return
+    lock_out
+    rm -rf "$out.previous" && mv "$out" "$out.previous" && rm -f "$out.previous/.lock" || return
+    exec 9>&-
   fi
   # One case at a time: the report holds times.
   build/release/bin/corridor-bench run paper --out "$out" --jobs 1

@@ -31,9 +31,9 @@ std::size_t rank(const std::string& system) {
 }
 
 auto sort_key(const Series& series) {
-  return std::make_tuple(rank(series.system), series.system, series.profile != kShippedProfile,
-                         series.profile, series.backend, series.parameters_hash,
-                         series.git_revision);
+  return std::make_tuple(rank(series.system), series.system, !series.overrides.empty(),
+                         series.profile != kShippedProfile, series.profile, series.backend,
+                         series.overrides, series.parameters_hash, series.git_revision);
 }
 
 auto sort_key(const Case& entry) {
@@ -57,6 +57,33 @@ void separate_data(std::vector<Case>& cases) {
     entry.result.dataset = fmt::format("{} (#{})", entry.dataset_given,
                                        std::string_view(digest).substr(0, kDigestDigits));
   }
+}
+
+// When the record was written; nothing known: before all others.
+fs::file_time_type written_at(const Case& entry) {
+  std::error_code error;
+  const fs::file_time_type time = fs::last_write_time(entry.dir / "result.json", error);
+  return error ? fs::file_time_type::min() : time;
+}
+
+// Keeps the newest record of every experiment; how many it left out.
+std::size_t set_aside_repeats(std::vector<Case>& cases) {
+  std::map<std::tuple<Series, World, std::uint64_t, int>, std::size_t> place;
+  std::vector<Case> kept;
+  for (Case& entry : cases) {
+    const auto [found, is_new] =
+        place.emplace(std::make_tuple(series_of(entry.result), world_of(entry.result),
+                                      entry.result.system_seed, entry.result.threads),
+                      kept.size());
+    if (is_new) {
+      kept.push_back(std::move(entry));
+    } else if (written_at(entry) >= written_at(kept[found->second])) {
+      kept[found->second] = std::move(entry);
+    }
+  }
+  const std::size_t num_left_out = cases.size() - kept.size();
+  cases = std::move(kept);
+  return num_left_out;
 }
 
 Result<std::vector<results::RunResult>> read_json_files(const fs::path& run_dir) {
@@ -104,8 +131,12 @@ Result<void> read_run_dir(const fs::path& run_dir, std::vector<Case>& cases,
 }  // namespace
 
 Series series_of(const results::RunResult& result) {
-  return {result.system, result.profile, result.backend.value_or(""), result.parameters_hash,
-          result.git_revision};
+  std::string overrides;
+  for (const auto& [key, value] : result.overrides.value_or(std::map<std::string, std::string>())) {
+    overrides += fmt::format("{}{}={}", overrides.empty() ? "" : ", ", key, value);
+  }
+  return {result.system,          result.profile,      result.backend.value_or(""),
+          result.parameters_hash, result.git_revision, overrides};
 }
 
 World world_of(const results::RunResult& result) {
@@ -116,6 +147,7 @@ Cases::Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
              std::vector<fs::path> run_dirs)
     : cases_(std::move(cases)), machines_(std::move(machines)), run_dirs_(std::move(run_dirs)) {
   separate_data(cases_);
+  num_set_aside_ = set_aside_repeats(cases_);
   std::stable_sort(cases_.begin(), cases_.end(), [](const Case& left, const Case& right) {
     return sort_key(left) < sort_key(right);
   });

@@ -1,5 +1,6 @@
 // All cases of a report, sorted and grouped: by data set, then by series (system, profile,
-// back-end, parameters, code revision). It computes no statistics (tables/summary.hpp).
+// back-end, parameters, what of them was set by hand, code revision). It computes no statistics
+// (tables/summary.hpp).
 #pragma once
 
 #include <compare>
@@ -30,6 +31,7 @@ struct Series {
   std::string backend = {};  // empty without one
   std::string parameters_hash = {};
   std::string git_revision = {};
+  std::string overrides = {};  // "key=value, ..." of what was set by hand; empty for nothing
 
   auto operator<=>(const Series&) const = default;
 };
@@ -53,6 +55,9 @@ class Cases {
   Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
         std::vector<std::filesystem::path> run_dirs);
 
+  // Records of one series, data, seeds and number of threads are one experiment: the newest file of
+  // them stands, of equally old ones the last given. How many others were set aside.
+  [[nodiscard]] std::size_t num_set_aside() const { return num_set_aside_; }
   // Sorted by data set, series, data seed, system seed, case id.
   [[nodiscard]] const std::vector<Case>& all() const { return cases_; }
   [[nodiscard]] const std::vector<std::filesystem::path>& run_dirs() const { return run_dirs_; }
@@ -71,6 +76,7 @@ class Cases {
   std::vector<results::Machine> machines_;
   std::vector<std::filesystem::path> run_dirs_;
   std::map<Series, std::string> labels_;
+  std::size_t num_set_aside_ = 0;
 };
 
 // Reads results.sqlite of every directory or, where there is none, every runs/*/result.json. An

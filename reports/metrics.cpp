@@ -43,7 +43,9 @@ Metric key_metric(KeyVariable variable, MapKind kind, const std::string& what,
                   std::optional<double> (*value)(const KeyValue&)) {
   const std::string prefix = kind == MapKind::kOwn ? "" : "rendered_";
   return {fmt::format("{}{}_{}_{}", prefix, name_of(variable), what, unit_of(variable)),
-          fmt::format("{} {}", name_of(variable), what), unit_of(variable), decimals_of(variable),
+          fmt::format("{} {} on {}", name_of(variable), what,
+                      kind == MapKind::kOwn ? "its own map" : "the common mapper's map"),
+          unit_of(variable), decimals_of(variable),
           [=](const RunResult& result) { return value(key_value(result, variable, kind)); }};
 }
 
@@ -100,8 +102,10 @@ Metric map_chamfer() {
 }
 
 Metric realtime_factor() {
-  return {"realtime_factor", "real-time factor", "1", 1,
-          [](const RunResult& result) { return result.realtime_factor; }};
+  Metric metric = {"realtime_factor", "times real time", "1", 1,
+                   [](const RunResult& result) { return result.realtime_factor; }};
+  metric.digits_max = 3;
+  return metric;
 }
 
 std::string name_of(KeyVariable variable) {

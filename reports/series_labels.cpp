@@ -17,7 +17,8 @@ constexpr std::size_t kHashDigits = 6;
 constexpr std::size_t kRevisionDigits = 7;
 constexpr std::string_view kDirty = "+dirty";
 
-// Everything that series called by one name differ in.
+// Everything that series called by one name differ in; the parameters of those alone of which
+// nothing is known to have been set by hand.
 struct Variants {
   std::map<std::string, Parameters> parameters_by_hash;
   std::set<std::string> revisions;
@@ -62,9 +63,18 @@ std::string revision_text(const std::string& revision) {
                      is_dirty && revision.size() > kRevisionDigits ? kDirty : "");
 }
 
+// "set: use_loop_closing=false": never left out, because a system with a parameter set by hand is
+// not the one that is shipped.
+std::string override_text(const Series& series) {
+  if (series.overrides.size() <= kMaxParameterBytes) return "set: " + series.overrides;
+  return fmt::format("set by hand: #{}", series.parameters_hash.substr(0, kHashDigits));
+}
+
 std::string differences(const Variants& variants, const Series& series) {
   std::string text;
-  if (variants.parameters_by_hash.size() > 1) {
+  if (!series.overrides.empty()) {
+    text = override_text(series);
+  } else if (variants.parameters_by_hash.size() > 1) {
     text = parameter_text(variants, series.parameters_hash);
   }
   if (variants.revisions.size() > 1) {
@@ -79,7 +89,8 @@ void lengthen_doubles(std::map<Series, std::string>& labels) {
   for (const auto& [series, label] : labels) ++num_by_label[label];
   for (auto& [series, label] : labels) {
     if (num_by_label[label] == 1) continue;
-    label = fmt::format("{}@{}/{} (#{}; at {})", series.system, series.profile, series.backend,
+    label = fmt::format("{}@{}/{} ({}#{}; at {})", series.system, series.profile, series.backend,
+                        series.overrides.empty() ? "" : fmt::format("set: {}; ", series.overrides),
                         series.parameters_hash, series.git_revision);
   }
 }
@@ -98,7 +109,9 @@ std::map<Series, std::string> series_labels(const std::vector<Case>& cases) {
     profiles[series.system].insert(series.profile);
     backends[series.system].insert(series.backend);
     Variants& own = variants[name_of(series)];
-    own.parameters_by_hash.emplace(series.parameters_hash, entry.result.parameters);
+    if (series.overrides.empty()) {
+      own.parameters_by_hash.emplace(series.parameters_hash, entry.result.parameters);
+    }
     own.revisions.insert(series.git_revision);
   }
   std::map<Series, std::string> labels;

@@ -13,6 +13,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "bench/metrics/score_case.hpp"
 #include "bench/results/result_json.hpp"
@@ -39,12 +40,16 @@ struct Inputs {
   double lidar_range_m = 0;
 };
 
-// Reads `path` into `value` unless it is empty.
+// Reads `path` into `value` unless it is empty. `expected` completes errors that do not say it.
 template <class T, class Read>
-Result<void> read_into(const std::string& path, T& value, Read read) {
+Result<void> read_into(const std::string& path, T& value, Read read, const char* expected) {
   if (path.empty()) return {};
   auto content = read(std::filesystem::path(path));
-  if (!content) return tl::make_unexpected(content.error());
+  if (!content) {
+    Error error = content.error();
+    if (error.expected.empty()) error.expected = expected;
+    return tl::make_unexpected(std::move(error));
+  }
   value = std::move(*content);
   return {};
 }
@@ -66,11 +71,16 @@ Result<void> read_world_into(const std::string& path, Inputs& inputs) {
 }
 
 Result<Inputs> read_inputs(const EvaluateCommand& command) {
+  constexpr const char* kTrajectory = "a trajectory, TUM";
   Inputs inputs;
-  Result<void> done = read_into(command.estimate, inputs.estimate, formats::read_tum);
-  if (done) done = read_into(command.truth, inputs.truth, formats::read_tum);
-  if (done) done = read_into(command.relations, inputs.relations, formats::read_relations);
-  if (done) done = read_into(command.map, inputs.map, formats::read_ros_map);
+  Result<void> done = read_into(command.estimate, inputs.estimate, formats::read_tum, kTrajectory);
+  if (done) done = read_into(command.truth, inputs.truth, formats::read_tum, kTrajectory);
+  if (done)
+    done = read_into(command.relations, inputs.relations, formats::read_relations,
+                     "a file of relations");
+  if (done)
+    done =
+        read_into(command.map, inputs.map, formats::read_ros_map, "a map as ROS map_server has it");
   if (done) done = read_world_into(command.world, inputs);
   if (!done) return tl::make_unexpected(done.error());
   return inputs;

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -61,6 +62,10 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& names) 
   return once;
 }
 
+tl::unexpected<Error> at_option(std::string option, const Error& error) {
+  return fail(error.code, error.what, std::move(option), error.expected);
+}
+
 // Every --set says something that no other one says, about a system that is run.
 Result<void> check_overrides(const runner::Suite& suite, const std::vector<std::string>& texts) {
   std::set<std::string> keys;
@@ -105,7 +110,10 @@ void RunCommand::add_to(CLI::App& command) {
       ->check(CLI::Range(1, kMaxJobs));
   command.add_option("--seeds", num_seeds, "Number of seeds instead of the suite's")
       ->check(CLI::Range(1, 100000));
-  command.add_option("--seed", first_seed, "First seed instead of the suite's")->type_name("N");
+  command
+      .add_option("--seed", first_seed,
+                  "First seed instead of the suite's; those below 1000 are for development")
+      ->type_name("N");
   command.add_option("--system", systems, "System, S or S@PROFILE, instead of the suite's; repeat")
       ->type_name("S[@PROFILE]");
   command.add_option("--backend", backends, "Back-end instead of the systems' own; repeat");
@@ -114,7 +122,7 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--set", overrides, "Parameter of a system; repeat")
       ->type_name("SYSTEM.key=value");
   command.add_flag("--resume", is_resumed,
-                   "Keep cases in DIR that are finished and were run by this revision");
+                   "Keep cases in DIR that are finished and were run by this build of the program");
   command.add_flag("--no-report", has_no_report, "Leave out tables, figures and page");
   command.add_option("--executor", executor, "local: processes on this machine");
   common.add_to(command);
@@ -152,13 +160,13 @@ Result<runner::Suite> RunCommand::requested_suite() const {
   if (!systems.empty()) requested.systems.clear();
   for (const std::string& text : systems) {
     const Result<runner::SystemChoice> choice = runner::parse_system_choice(text);
-    if (!choice) return tl::make_unexpected(choice.error());
+    if (!choice) return at_option("--system", choice.error());
     auto& chosen = requested.systems;
     if (std::find(chosen.begin(), chosen.end(), *choice) == chosen.end()) chosen.push_back(*choice);
   }
   for (const std::string& name : backends) {
     const Result<void> known = runner::check_back_end(name);
-    if (!known) return tl::make_unexpected(known.error());
+    if (!known) return at_option("--backend", known.error());
   }
   if (!backends.empty()) requested.backends = without_repeats(backends);
   if (!datasets.empty()) replace_data(without_repeats(datasets), requested);

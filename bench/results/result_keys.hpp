@@ -90,6 +90,9 @@ void visit_what(auto& r, auto&& v) {
     r.overrides);
   v(ResultKey{"git_revision", "", "revision of the program, +dirty with local changes", false},
     r.git_revision);
+  v(ResultKey{"build_id", "", "hash of the program's file: tells builds of one revision apart",
+              false},
+    r.build_id);
   v(ResultKey{"machine_id", "", "hash of the machine's fingerprint", false}, r.machine_id);
 }
 

@@ -86,7 +86,9 @@ struct RunResult {
   std::map<std::string, std::string> parameters;
   // What was set by hand on top of the profile; null: an older revision, which did not say.
   std::optional<std::map<std::string, std::string>> overrides;
-  std::string git_revision, machine_id;
+  std::string git_revision;
+  std::optional<std::string> build_id;  // of the program's file; null: an older revision
+  std::string machine_id;
 
   // outcome
   CaseStatus status = CaseStatus::kFailed;

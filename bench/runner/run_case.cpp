@@ -10,6 +10,7 @@
 #include "bench/metrics/score_case.hpp"
 #include "bench/results/digest.hpp"
 #include "bench/results/machine.hpp"
+#include "bench/runner/build_id.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/case_files.hpp"
 #include "bench/runner/cost.hpp"
@@ -91,6 +92,9 @@ std::vector<std::string> score(const CaseData& data, const Drive& run,
   if (data.world) evidence.world = &*data.world;
   evidence.lidar_range_m = lidar_range_m(data);
   std::vector<std::string> remarks = metrics::score_case(evidence, {}, result);
+  if (!data.log.truth && data.relations.empty()) {
+    remarks.emplace_back("not scored: the data set has neither true poses nor relations");
+  }
   if (data.simulation_truth) score_detection(run.health, *data.simulation_truth, result);
   return remarks;
 }
@@ -184,6 +188,7 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
   result.jobs = jobs;
   result.overrides = spec.overrides;
   result.git_revision = git_revision();
+  result.build_id = build_id();
   result.machine_id = results::this_machine().machine_id;
   if (const Result<SystemInfo> info = find_system(spec.system)) {
     const Result<ParamValues> values = info->resolve(spec.profile, spec.overrides);

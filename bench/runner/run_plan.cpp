@@ -12,11 +12,11 @@
 #include "bench/results/machine.hpp"
 #include "bench/results/result_json.hpp"
 #include "bench/results/results_store.hpp"
+#include "bench/runner/build_id.hpp"
 #include "bench/runner/case_files.hpp"
 #include "bench/runner/child_pool.hpp"
 #include "bench/runner/earlier_cases.hpp"
 #include "bench/runner/exit_code.hpp"
-#include "bench/runner/git_revision.hpp"
 #include "bench/runner/progress.hpp"
 #include "bench/runner/run_case.hpp"
 #include "datasets/formats/atomic_file.hpp"
@@ -73,14 +73,13 @@ std::string last_line(const std::string& text) {
                      end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
-// The record of an earlier run that still answers this very case.
+// The record of this very case that an earlier run left, by whatever program.
 std::optional<RunResult> finished_record(const fs::path& out, const CaseSpec& spec) {
   const fs::path folder = case_folder(out, case_id(spec));
   if (!fs::exists(folder / "spec.json")) return std::nullopt;
   const Result<CaseSpec> old_spec = read_case_spec(folder / "spec.json");
   Result<RunResult> record = results::read_result(folder / "result.json");
   if (!old_spec || !record || *old_spec != spec) return std::nullopt;
-  if (record->git_revision != git_revision()) return std::nullopt;
   return std::move(*record);
 }
 
@@ -160,17 +159,7 @@ class PlanRun {
     if (const Result<void> put = store_.put(results::this_machine()); !put) {
       return tl::make_unexpected(put.error());
     }
-    std::vector<CaseSpec> waiting;
-    for (const CaseSpec& spec : cases) {
-      std::optional<RunResult> record;
-      if (options_.is_resumed) record = finished_record(out_, spec);
-      if (!record) {
-        waiting.push_back(spec);
-        continue;
-      }
-      ++summary_.num_kept;
-      keep(*record, 0);
-    }
+    const std::vector<CaseSpec> waiting = options_.is_resumed ? keep_finished(cases) : cases;
     if (const Result<void> started = start(waiting); !started) {
       return tl::make_unexpected(started.error());
     }
@@ -188,6 +177,28 @@ class PlanRun {
         "another folder",
         out_.string(), earlier.num_cases, is_one ? "case" : "cases",
         fmt::join(earlier.suites, ", "), is_one ? "stays" : "stay", is_one ? "is" : "are"));
+  }
+
+  // Keeps what this build of the program has run; the other cases.
+  std::vector<CaseSpec> keep_finished(const std::vector<CaseSpec>& cases) {
+    const std::optional<std::string> build = build_id();
+    std::vector<CaseSpec> waiting;
+    std::size_t num_outdated = 0;
+    for (const CaseSpec& spec : cases) {
+      const std::optional<RunResult> record = finished_record(out_, spec);
+      if (record && build && record->build_id == build) {
+        ++summary_.num_kept;
+        keep(*record, 0);
+        continue;
+      }
+      if (record) ++num_outdated;
+      waiting.push_back(spec);
+    }
+    if (num_outdated > 0) {
+      progress_.note(fmt::format("{} finished {} not kept: run by another build of the program",
+                                 num_outdated, num_outdated == 1 ? "case is" : "cases are"));
+    }
+    return waiting;
   }
 
   Result<void> start(const std::vector<CaseSpec>& waiting) {
@@ -262,6 +273,9 @@ Result<RunSummary> run_plan(const Plan& plan, const FolderLock& out, const RunOp
   if (!earlier) return tl::make_unexpected(earlier.error());
   Result<WorkFolder> work = WorkFolder::create(folder);
   if (!work) return tl::make_unexpected(work.error());
+  // A page that lacks what is about to be run would look final if this run were killed.
+  std::error_code ignored;
+  fs::remove(folder / "index.html", ignored);
   return PlanRun(plan, folder, options, std::move(*work), std::move(*store))
       .run(plan.cases, *earlier);
 }

@@ -15,7 +15,7 @@ struct RunOptions {
   std::filesystem::path executable;  // started as: executable run-case SPEC.json --out OUT
   std::optional<std::filesystem::path> data_dir;  // handed on to the cases
   int num_jobs = 1;
-  bool is_resumed = false;  // keep finished cases whose spec and program revision are the same
+  bool is_resumed = false;  // keep finished cases whose spec and build of the program are the same
   bool is_quiet = false;
   bool is_terminal = false;
 };

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "bench/runner/back_ends.hpp"
+#include "bench/runner/overrides.hpp"
 
 namespace corridor::runner {
 namespace {
@@ -188,7 +189,7 @@ class Parser {
       const Result<SystemInfo> info = find_system(system);
       for (const SystemChoice& choice : suite_.systems) {
         if (choice.system != system) continue;
-        const Result<ParamValues> values = info->resolve(choice.profile, params);
+        const Result<ParamValues> values = resolve_overrides(*info, choice.profile, params);
         if (!values) problem(node == nullptr ? table : *node, values.error().to_line());
       }
       const std::string& name = system;  // clang 14 captures no structured binding

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "bench/runner/overrides.hpp"
 #include "bench/runner/suite.hpp"
 
 namespace corridor::runner {
@@ -56,7 +57,7 @@ Result<void> add_overrides(Suite& suite, const std::vector<std::string>& texts) 
     if (!info) return fail(info.error().code, info.error().what, "--set", info.error().expected);
     for (const SystemChoice& choice : suite.systems) {
       if (choice.system != system) continue;
-      const Result<ParamValues> values = info->resolve(choice.profile, params);
+      const Result<ParamValues> values = resolve_overrides(*info, choice.profile, params);
       if (!values) return fail(ErrorCode::kInvalid, values.error().to_line(), "--set");
     }
   }

@@ -30,7 +30,8 @@ constexpr std::array<std::string_view, 4> kPaperSystems = {"gmapping", "karto", 
                                                            "fusion"};
 
 struct Panel {
-  std::string heading;
+  std::string label;    // shortened where it does not fit
+  std::string outcome;  // never shortened: "*: 0.021 m, diverged"
   Scene scene;
 };
 
@@ -39,18 +40,16 @@ bool is_shown(const Series& series, bool has_truth) {
                            kPaperSystems.end();
 }
 
-std::string heading_of(const Cases& cases, const Series& series, const Case& entry,
-                       const Scene& scene) {
-  // Three panels share a row: the caption says what the length and the star mean.
-  std::string heading = cases.label(series);
-  if (scene.is_map_rendered) heading += "*";
+// Three panels share a row: the caption says what the length and the star mean.
+std::string outcome_of(const Case& entry, const Scene& scene) {
+  std::string outcome = scene.is_map_rendered ? "*" : "";
   const auto error_m = reports::position_error().value(entry.result);
   const auto relation_m = reports::relation_translation_mean().value(entry.result);
-  if (error_m || relation_m) heading += fmt::format(": {:.3f} m", error_m ? *error_m : *relation_m);
+  if (error_m || relation_m) outcome += fmt::format(": {:.3f} m", error_m ? *error_m : *relation_m);
   if (entry.result.status != results::CaseStatus::kOk) {
-    heading += ", " + results::to_text(entry.result.status);
+    outcome += ", " + results::to_text(entry.result.status);
   }
-  return heading;
+  return outcome;
 }
 
 std::vector<Panel> load_panels(const Cases& cases, const std::string& dataset,
@@ -65,8 +64,8 @@ std::vector<Panel> load_panels(const Cases& cases, const std::string& dataset,
                                        : all.front();
     if (entry == nullptr) continue;
     Scene scene = load_scene(*entry, problems);
-    const std::string heading = heading_of(cases, series, *entry, scene);
-    panels.push_back({heading, std::move(scene)});
+    const std::string outcome = outcome_of(*entry, scene);
+    panels.push_back({cases.label(series), outcome, std::move(scene)});
   }
   return panels;
 }
@@ -119,7 +118,8 @@ double aspect_ratio(const std::vector<Bounds>& bounds) {
 
 void draw_panel(Svg& svg, const Panel& panel, const Bounds& bounds, double x_px, double y_px,
                 double width_px, double height_px) {
-  svg.text(x_px + 2, y_px + 17, elided(panel.heading, width_px));
+  svg.text(x_px + 2, y_px + 17,
+           elided(panel.label, width_px - text_width_px(panel.outcome)) + panel.outcome);
   const double top_px = y_px + kHeading_px;
   svg.rect(x_px, top_px, width_px, height_px, "panel");
   const PlaneFrame frame(bounds, x_px, top_px, width_px, height_px, kPanelMargin_px);
@@ -166,7 +166,15 @@ std::optional<Figure> map_figure(const Cases& cases, const std::string& dataset,
       "Maps of {}: occupied black, free white, unknown grey. Lengths: position RMSE "
       "(mean relation error on recorded data).",
       dataset);
-  if (has_walls) caption += " Lines: the true walls, first poses aligned; one scale for all.";
+  if (has_walls) {
+    caption += " Lines: the true walls, first poses aligned; one scale for all.";
+  } else if (panels.size() > 1) {
+    caption +=
+        " Scales differ from panel to panel: each shows its own map whole, with its own bar.";
+  }
+  if (!tables::is_scored(cases, dataset)) {
+    caption += " No truth is known here: whether a map is right, only looking tells.";
+  }
   const bool has_rendered = std::any_of(
       panels.begin(), panels.end(), [](const Panel& panel) { return panel.scene.is_map_rendered; });
   if (has_rendered) {

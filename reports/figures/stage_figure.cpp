@@ -10,6 +10,7 @@
 #include "reports/figures/scale.hpp"
 #include "reports/figures/series_styles.hpp"
 #include "reports/metrics.hpp"
+#include "reports/tables/writers.hpp"
 #include "reports/timing.hpp"
 #include "slam/core/stage_clock.hpp"
 
@@ -49,7 +50,7 @@ struct Group {
   std::string label;
   const SeriesStyle* style = nullptr;
   std::optional<Times> step;
-  std::optional<double> realtime_factor;
+  std::string realtime_text;  // empty if not measured
   std::vector<StageRow> stages;
 };
 
@@ -119,7 +120,7 @@ std::vector<Group> load_groups(const Cases& cases, const std::string& dataset) {
     const tables::Cell factor =
         tables::summarise(cases, dataset, series, reports::realtime_factor());
     if (const auto* estimate = std::get_if<tables::Estimate>(&factor)) {
-      group.realtime_factor = estimate->median;
+      group.realtime_text = tables::number_text(estimate->median, estimate->decimals);
     }
     if (group.step || !group.stages.empty()) groups.push_back(std::move(group));
   }
@@ -170,8 +171,8 @@ void draw_group(Svg& svg, const Group& group, const LogScale& scale, double labe
   const double note_px = kWidth_px - kNoteWidth_px + 14;
   svg.text(label_px - 12, y_px + 4, elided(group.label, label_px - 20), "strong", Anchor::kEnd);
   if (group.step) draw_times(svg, *group.step, scale, y_px, *group.style, true);
-  if (group.realtime_factor) {
-    svg.text(note_px, y_px + 4, fmt::format("{:.0f} × real time", *group.realtime_factor), "small");
+  if (!group.realtime_text.empty()) {
+    svg.text(note_px, y_px + 4, group.realtime_text + " × real time", "small");
   }
   for (const StageRow& row : group.stages) {
     y_px += kRow_px;

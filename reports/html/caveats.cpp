@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "reports/html/reproduce.hpp"
 #include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/timing.hpp"
@@ -30,25 +31,61 @@ bool is_simulated(const Cases& cases) {
                      [](const Case& entry) { return entry.result.data_seed.has_value(); });
 }
 
+// Seeds below are for development; a report's own worlds have others.
+constexpr std::uint64_t kFirstReportSeed = 1000;
+
+// Of worlds that a system was developed on, its errors promise nothing.
+void append_seeds(const Cases& cases, std::vector<std::string>& sentences) {
+  std::set<std::uint64_t> development;
+  std::size_t num_simulated = 0;
+  std::size_t num_development = 0;
+  for (const Case& entry : cases.all()) {
+    if (!entry.result.data_seed) continue;
+    ++num_simulated;
+    if (*entry.result.data_seed >= kFirstReportSeed) continue;
+    ++num_development;
+    development.insert(*entry.result.data_seed);
+  }
+  if (num_development > 0) {
+    sentences.push_back(fmt::format(
+        "Warning: development seeds are in this report. Seeds below {} are for development, and {} "
+        "of {} simulated cases have one ({}): errors in worlds that a system was developed on say "
+        "little about new ones.",
+        kFirstReportSeed, num_development, num_simulated, seed_ranges(development)));
+  } else if (num_simulated > 0 && has_system(cases, {"fusion"})) {
+    sentences.emplace_back(
+        "fusion was developed on worlds of the same simulator, with other seeds than these; no "
+        "rival was adapted to it.");
+  }
+}
+
+// Of records that do not say what was set by hand, a label cannot either.
+void append_unknown_overrides(const Cases& cases, std::vector<std::string>& sentences) {
+  const auto& all = cases.all();
+  const auto num_unknown = std::count_if(all.begin(), all.end(),
+                                         [](const Case& entry) { return !entry.result.overrides; });
+  if (num_unknown == 0) return;
+  sentences.push_back(
+      fmt::format("The records of {} of {} cases do not say which parameters were set by hand: "
+                  "compare the list of parameters with the profile before calling one shipped.",
+                  num_unknown, all.size()));
+}
+
 // Rivals with the parameters their users get, and what was changed in others.
 void append_configuration(const Cases& cases, std::vector<std::string>& sentences) {
   std::set<std::string> shipped;
   for (const Series& series : cases.series()) {
-    if (series.profile == "shipped") shipped.insert(series.system);
+    if (series.profile == "shipped" && series.overrides.empty()) shipped.insert(series.system);
   }
   if (!shipped.empty()) {
     sentences.push_back(fmt::format(
         "Profile shipped is what users of the original programs get: {}. What else was "
-        "run is named in the label (a profile, or parameters where a system ran with "
-        "several sets); a parameter that a whole run set by hand shows only in the list "
-        "of parameters. No profile shipped was tuned for these data.",
+        "run is named in the label: a profile, or what was set by hand (set: ...). No profile "
+        "shipped was tuned for these data.",
         fmt::join(shipped, ", ")));
   }
-  if (has_system(cases, {"fusion"}) && is_simulated(cases)) {
-    sentences.emplace_back(
-        "fusion was developed on worlds of the same simulator, with other seeds than the suites'; "
-        "no rival was adapted to it.");
-  }
+  append_unknown_overrides(cases, sentences);
+  append_seeds(cases, sentences);
   if (has_system(cases, {"gmapping", "karto"})) {
     sentences.emplace_back(
         "gmapping and karto are reimplementations from papers and measured behaviour, not the "
@@ -95,6 +132,17 @@ void append_statistics(const Cases& cases, std::vector<std::string>& sentences) 
   }
 }
 
+// A collapsed map and a right one look alike in every table.
+void append_unscored(const Cases& cases, std::vector<std::string>& sentences) {
+  for (const std::string& dataset : cases.datasets()) {
+    if (tables::is_scored(cases, dataset)) continue;
+    sentences.push_back(fmt::format(
+        "{}: not scored: no true poses, no relations. That a system ended there does not say that "
+        "its map is right.",
+        dataset));
+  }
+}
+
 // What the runner noted about the scores, once for all cases that it holds for.
 void append_score_notes(const Cases& cases, std::vector<std::string>& sentences) {
   std::map<std::pair<std::string, std::string>, int> num_cases;
@@ -108,6 +156,12 @@ void append_score_notes(const Cases& cases, std::vector<std::string>& sentences)
 }
 
 void append_provenance(const Cases& cases, std::vector<std::string>& sentences) {
+  if (cases.num_set_aside() > 0) {
+    sentences.push_back(fmt::format(
+        "{} record{} set aside: another one of the same system, parameters, revision, data and "
+        "seeds is newer.",
+        cases.num_set_aside(), cases.num_set_aside() == 1 ? " was" : "s were"));
+  }
   std::set<std::string> revisions;
   for (const Case& entry : cases.all()) revisions.insert(entry.result.git_revision);
   if (revisions.size() > 1) {
@@ -131,6 +185,7 @@ std::vector<std::string> caveats(const Cases& cases) {
   append_configuration(cases, sentences);
   append_sensors(cases, sentences);
   append_world(cases, sentences);
+  append_unscored(cases, sentences);
   append_statistics(cases, sentences);
   for (const std::string& note : reports::timing_notes(cases))
     sentences.push_back(fmt::format("Times: {}", note));

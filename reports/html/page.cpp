@@ -112,8 +112,9 @@ data machine_list(const Cases& cases) {
   for (const results::Machine& machine : cases.machines()) {
     unknown.erase(machine.machine_id);
     add(machine.machine_id,
-        fmt::format("{}, {} cores, {} MiB, Linux {}, {}", machine.cpu_model, machine.num_cores,
-                    machine.memory_mib, machine.kernel, machine.compiler));
+        fmt::format("{}, {} cores, {} MiB, {}{}, {}", machine.cpu_model, machine.num_cores,
+                    machine.memory_mib, machine.kernel.starts_with("Linux") ? "" : "Linux ",
+                    machine.kernel, machine.compiler));
   }
   for (const std::string& id : unknown) add(id, "not described in the store");
   return list;

@@ -115,8 +115,10 @@ std::string with_unit(const Estimate& estimate, const std::string& unit) {
 
 std::string standing(const Metric& metric, const std::vector<Entry>& entries, std::size_t index) {
   const Entry& own = entries[index];
-  const std::string count = fmt::format("n = {} of {} {}", own.estimate.n, own.estimate.of,
-                                        own.estimate.of == 1 ? "world" : "worlds");
+  const bool is_simulated = !own.values.empty() && own.values.begin()->first.data_seed.has_value();
+  const std::string count =
+      fmt::format("n = {} of {} {}{}", own.estimate.n, own.estimate.of,
+                  is_simulated ? "world" : "run", own.estimate.of == 1 ? "" : "s");
   const std::string figure = with_unit(own.estimate, metric.unit);
   if (entries.size() == 1) {
     return fmt::format("The {} of {} is {} ({}); no other one was measured.", metric.name,

@@ -131,6 +131,38 @@ void append_relation_verdict(const Cases& cases, Verdict& verdict) {
       first.label, with_unit(last.estimate, "m"), last.label, entries.size()));
 }
 
+// The most values that any series has of a number that the verdict speaks of.
+std::size_t num_values_max(const Cases& cases, const std::string& dataset) {
+  std::size_t most = 0;
+  for (const Series& series : cases.series()) {
+    for (const Metric& metric :
+         {reports::position_error(), reports::angle_error(), reports::relation_translation_mean(),
+          reports::key_measured(KeyVariable::kA, reports::MapKind::kOwn),
+          reports::key_measured(KeyVariable::kB, reports::MapKind::kOwn)}) {
+      most = std::max(most, tables::world_values(cases, dataset, series, metric).size());
+    }
+  }
+  return most;
+}
+
+// One sentence where there is too little for any verdict, empty otherwise.
+std::string why_no_verdict(const Cases& cases, const std::string& dataset) {
+  if (!tables::is_scored(cases, dataset)) {
+    return fmt::format("{}: no truth is known; look at the maps.", dataset);
+  }
+  const std::size_t most = num_values_max(cases, dataset);
+  if (most >= static_cast<std::size_t>(tables::kMinValuesForInterval)) return "";
+  if (tables::is_simulated(cases, dataset)) {
+    return fmt::format("Too few worlds for a verdict ({} at most, {} are needed): see the tables.",
+                       most, tables::kMinValuesForInterval);
+  }
+  return fmt::format(
+      "Too few runs for a verdict ({} at most, {} are needed; recorded data are one world, n "
+      "counts "
+      "runs): see the tables.",
+      most, tables::kMinValuesForInterval);
+}
+
 // "karto on malaga: 1 of 3 timeout", for every series with a case that is not ok.
 std::vector<std::string> outcome_sentences(const Cases& cases) {
   std::vector<std::string> sentences;
@@ -150,6 +182,17 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
       }
     }
   }
+  const auto num_unscored =
+      std::count_if(cases.all().begin(), cases.all().end(), [&](const reports::Case& entry) {
+        return entry.result.status == results::CaseStatus::kOk &&
+               !tables::is_scored(cases, entry.result.dataset);
+      });
+  if (num_unscored > 0) {
+    sentences.insert(sentences.begin(),
+                     fmt::format("{} of those that ended are not scored: no true poses, no "
+                                 "relations.",
+                                 num_unscored));
+  }
   const std::size_t num = cases.all().size();
   sentences.insert(
       sentences.begin(),
@@ -164,6 +207,10 @@ std::vector<Verdict> verdicts(const Cases& cases) {
   std::vector<Verdict> all;
   for (const std::string& dataset : cases.datasets()) {
     Verdict verdict{dataset, {}, {}};
+    if (const std::string reason = why_no_verdict(cases, dataset); !reason.empty()) {
+      all.push_back({dataset, {reason}, {}});
+      continue;
+    }
     append_trajectory_verdicts(cases, verdict);
     append_map_verdict(cases, KeyVariable::kA, verdict);
     append_map_verdict(cases, KeyVariable::kB, verdict);

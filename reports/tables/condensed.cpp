@@ -39,7 +39,8 @@ Condensed condense(const Table& table) {
   std::string common;
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
     const bool is_left_out = table.columns[column].is_optional && is_missing(table, column);
-    const bool is_said_once = table.rows.size() > 1 && is_constant(table, column);
+    const bool is_said_once =
+        !table.columns[column].is_kept && table.rows.size() > 1 && is_constant(table, column);
     is_kept.push_back(!is_left_out && !is_said_once);
     if (is_left_out || !is_said_once) continue;
     common += fmt::format("{}{}: {}", common.empty() ? "" : "; ", table.columns[column].heading,

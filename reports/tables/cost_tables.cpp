@@ -21,18 +21,23 @@ using reports::Series;
 using results::RunResult;
 using results::StageTimes;
 
+// Significant digits at least: a time of 0.04 us is not 0.0.
+constexpr int kTimeDigits = 2;
+
 std::vector<Metric> cost_metrics() {
-  return {
-      {"step_p50_us", "step p50 [us]", "us", 1, [](const RunResult& r) { return r.step_p50_us; }},
-      {"step_p95_us", "step p95 [us]", "us", 1, [](const RunResult& r) { return r.step_p95_us; }},
-      {"step_p99_us", "step p99 [us]", "us", 1, [](const RunResult& r) { return r.step_p99_us; }},
-      {"step_max_us", "step max [us]", "us", 1, [](const RunResult& r) { return r.step_max_us; }},
-      {"wall_s", "wall [s]", "s", 2, [](const RunResult& r) { return r.wall_s; }},
-      {"cpu_s", "CPU [s]", "s", 2, [](const RunResult& r) { return r.cpu_s; }},
-      {"realtime_factor", "times real time", "1", 1,
-       [](const RunResult& r) { return r.realtime_factor; }},
-      {"peak_rss_mib", "peak memory [MiB]", "MiB", 0,
-       [](const RunResult& r) { return r.peak_rss_mib; }}};
+  return {{"step_p50_us", "step p50 [us]", "us", 1,
+           [](const RunResult& r) { return r.step_p50_us; }, kTimeDigits},
+          {"step_p95_us", "step p95 [us]", "us", 1,
+           [](const RunResult& r) { return r.step_p95_us; }, kTimeDigits},
+          {"step_p99_us", "step p99 [us]", "us", 1,
+           [](const RunResult& r) { return r.step_p99_us; }, kTimeDigits},
+          {"step_max_us", "step max [us]", "us", 1,
+           [](const RunResult& r) { return r.step_max_us; }, kTimeDigits},
+          {"wall_s", "wall [s]", "s", 2, [](const RunResult& r) { return r.wall_s; }, kTimeDigits},
+          {"cpu_s", "CPU [s]", "s", 2, [](const RunResult& r) { return r.cpu_s; }, kTimeDigits},
+          reports::realtime_factor(),
+          {"peak_rss_mib", "peak memory [MiB]", "MiB", 0,
+           [](const RunResult& r) { return r.peak_rss_mib; }}};
 }
 
 const StageTimes* find_stage(const RunResult& result, std::string_view name) {
@@ -57,13 +62,17 @@ constexpr std::array kStageFields = {
     StageField{"max [us]", "max_us", 1, [](const StageTimes& s) { return s.max_us; }}};
 
 Metric stage_metric(std::string_view stage_name, const StageField& field) {
-  return {field.key, field.heading, "", field.decimals,
+  return {field.key,
+          field.heading,
+          "",
+          field.decimals,
           [name = std::string(stage_name),
            value = field.value](const RunResult& result) -> std::optional<double> {
             const StageTimes* stage = find_stage(result, name);
             if (stage == nullptr) return std::nullopt;
             return value(*stage);
-          }};
+          },
+          kTimeDigits};
 }
 
 bool has_stage(const Cases& cases, const std::string& dataset, const Series& series,

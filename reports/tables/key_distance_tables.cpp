@@ -65,16 +65,17 @@ std::vector<Cell> table1_row(const Cases& cases, const std::string& dataset, Map
   const KeyVariable variable = published.variable;
   const Metric measured = key_measured(variable, kind);
   const bool has_paper = is_paper_world(cases, dataset);
-  const auto paper_cell = [&](double value) -> Cell {
-    if (has_paper) return Number{value, 3};
-    return Missing{"other world"};
+  const auto paper_cell = [&](std::string_view system, double value) -> Cell {
+    if (!has_paper) return Missing{"other world"};
+    if (!may_stand_beside_paper(cases, system)) return Missing{"other parameters"};
+    return Number{value, 3};
   };
   std::vector<Cell> row = {dataset,
                            fmt::format("{} [{}]", name_of(variable), unit_of(variable)),
                            map_name(kind),
                            true_cell(true_values(cases, dataset, variable), measured.decimals),
-                           paper_cell(published.karto),
-                           paper_cell(published.proposed)};
+                           paper_cell("karto", published.karto),
+                           paper_cell("fusion-paper", published.proposed)};
   const std::size_t first = row.size();
   const std::vector<Series> shown = table1_series(cases);
   for (const Series& series : shown) {

@@ -47,11 +47,20 @@ bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& se
   std::string first_profile;
   std::set<std::string> hashes;
   for (const reports::Series& other : cases.series()) {
-    if (other.system != series.system) continue;
+    if (other.system != series.system || !other.overrides.empty()) continue;
     if (hashes.empty()) first_profile = other.profile;
     if (other.profile == first_profile) hashes.insert(other.parameters_hash);
   }
-  return series.profile == first_profile && hashes.size() == 1;
+  return series.overrides.empty() && series.profile == first_profile && hashes.size() == 1;
+}
+
+bool may_stand_beside_paper(const reports::Cases& cases, std::string_view system) {
+  const std::vector<reports::Series> all = cases.series();
+  const auto is_system = [&](const reports::Series& series) { return series.system == system; };
+  return std::none_of(all.begin(), all.end(), is_system) ||
+         std::any_of(all.begin(), all.end(), [&](const reports::Series& series) {
+           return is_system(series) && is_paper_counterpart(cases, series);
+         });
 }
 
 }  // namespace corridor::tables

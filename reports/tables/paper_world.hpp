@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "reports/cases.hpp"
 #include "reports/metrics.hpp"
@@ -16,8 +17,11 @@ std::set<double> true_values(const reports::Cases& cases, const std::string& dat
 // of one's own has no data seed, whatever lies beside it.
 bool is_paper_world(const reports::Cases& cases, const std::string& dataset);
 // The paper's figures stand beside the profile of a system that comes first in reports (as
-// shipped), not beside variants of it; beside none where that profile ran with several sets of
-// parameters, because no record says which of them was as shipped.
+// shipped), not beside variants of it, nor where a parameter was set by hand; beside none where
+// that profile ran with several sets of parameters of which no record says which was as shipped.
 bool is_paper_counterpart(const reports::Cases& cases, const reports::Series& series);
+// Whether the paper's figures of a system may have a column: it was not run, or one of its series
+// is their counterpart.
+bool may_stand_beside_paper(const reports::Cases& cases, std::string_view system);
 
 }  // namespace corridor::tables

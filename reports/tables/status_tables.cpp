@@ -6,6 +6,7 @@
 #include <map>
 
 #include "reports/metrics.hpp"
+#include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/summary.hpp"
 
@@ -34,6 +35,22 @@ Cell seed_cell(const std::optional<std::uint64_t>& seed) {
   return Missing{"recorded"};
 }
 
+// Why no run of a data set has a number; empty where one that ended well could have had it.
+std::string reason_for_none(const Cases& cases, const std::string& dataset, const Metric& metric) {
+  const std::vector<const Case*> all = cases.of(dataset);
+  const bool has_ended = std::any_of(all.begin(), all.end(), [](const Case* entry) {
+    return entry->result.status == CaseStatus::kOk;
+  });
+  if (metric.key.find("relations") != std::string::npos) {
+    if (is_simulated(cases, dataset)) return "does not apply";
+    return has_ended ? "no truth known" : "";
+  }
+  if (!has_ended || metric.key == reports::realtime_factor().key) return "";
+  const bool is_error = metric.key.find("rmse") != std::string::npos;
+  if (is_error) return is_simulated(cases, dataset) ? "" : "no truth known";
+  return true_values(cases, dataset, reports::KeyVariable::kA).empty() ? "does not apply" : "";
+}
+
 // "all", the labels of the systems that have no value on the data set, or "" if each has one.
 std::string systems_without(const Cases& cases, const std::string& dataset, const Metric& metric) {
   std::vector<std::string> without;
@@ -59,7 +76,14 @@ Table outcome_table(const Cases& cases) {
                    {"cases", "cases", ColumnKind::kNumber}};
   for (const CaseStatus status : kStatuses) {
     const std::string name = results::to_text(status);
-    table.columns.push_back({name, name, ColumnKind::kNumber});
+    table.columns.push_back({name, name, ColumnKind::kNumber, false, status == CaseStatus::kOk});
+  }
+  const std::vector<std::string> datasets = cases.datasets();
+  const bool is_all_scored =
+      std::all_of(datasets.begin(), datasets.end(),
+                  [&](const std::string& dataset) { return is_scored(cases, dataset); });
+  if (!is_all_scored) {
+    table.columns.push_back({"ended; not scored", "not_scored", ColumnKind::kNumber, false, true});
   }
   for (const std::string& dataset : cases.datasets()) {
     for (const Series& series : cases.series()) {
@@ -67,12 +91,18 @@ Table outcome_table(const Cases& cases) {
       if (found.empty()) continue;
       std::vector<Cell> row = {dataset, cases.label(series),
                                Number{static_cast<double>(found.size()), 0}};
+      // Whoever ended on data without truth is not known to be right.
+      const bool has_score = is_scored(cases, dataset);
+      double num_not_scored = 0;
       for (const CaseStatus status : kStatuses) {
         const auto count = std::count_if(found.begin(), found.end(), [&](const Case* entry) {
           return entry->result.status == status;
         });
-        row.emplace_back(Number{static_cast<double>(count), 0});
+        const bool is_unknown = status == CaseStatus::kOk && !has_score;
+        if (is_unknown) num_not_scored = static_cast<double>(count);
+        row.emplace_back(Number{is_unknown ? 0 : static_cast<double>(count), 0});
       }
+      if (!is_all_scored) row.emplace_back(Number{num_not_scored, 0});
       table.rows.push_back(std::move(row));
     }
   }
@@ -80,6 +110,11 @@ Table outcome_table(const Cases& cases) {
       "ok: every expected pose matched. partial: poses are missing. diverged: lost (not finite, by "
       "the system's own report, a mean relation error above 0.5 m, or a position RMSE above a "
       "quarter of the path); its errors stay in the medians. failed: error or crash."};
+  if (!is_all_scored) {
+    table.notes.emplace_back(
+        "ended; not scored: no true poses, no relations. The run came to its end, and nothing says "
+        "whether its trajectory and map are right.");
+  }
   return table;
 }
 
@@ -116,15 +151,21 @@ Table missing_table(const Cases& cases) {
   table.caption = "What was not measured: numbers without a value in any run of a system";
   table.columns = {{"data set", "dataset", ColumnKind::kText},
                    {"systems", "systems", ColumnKind::kText},
+                   {"why", "why", ColumnKind::kText, false, true},
                    {"numbers without a value", "metrics", ColumnKind::kText}};
   for (const std::string& dataset : cases.datasets()) {
-    std::map<std::string, std::vector<std::string>> metrics_by_systems;
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> metrics_by_systems;
     for (const Metric& metric : reports::headline_metrics()) {
       const std::string systems = systems_without(cases, dataset, metric);
-      if (!systems.empty()) metrics_by_systems[systems].push_back(metric.key);
+      if (systems.empty()) continue;
+      const std::string reason =
+          systems == "all" ? reason_for_none(cases, dataset, metric) : std::string();
+      metrics_by_systems[{systems, reason.empty() ? "not measured" : reason}].push_back(
+          metric.name);
     }
-    for (const auto& [systems, metrics] : metrics_by_systems) {
-      table.rows.push_back({dataset, systems, fmt::format("{}", fmt::join(metrics, ", "))});
+    for (const auto& [key, metrics] : metrics_by_systems) {
+      table.rows.push_back(
+          {dataset, key.first, key.second, fmt::format("{}", fmt::join(metrics, ", "))});
     }
   }
   return table;

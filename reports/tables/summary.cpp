@@ -67,6 +67,31 @@ int num_ok_worlds(const Cases& cases, const std::string& dataset, const Series& 
       std::count_if(is_ok.begin(), is_ok.end(), [](const auto& item) { return item.second; }));
 }
 
+bool is_scored(const Cases& cases, const std::string& dataset) {
+  const std::vector<const Case*> all = cases.of(dataset);
+  return std::any_of(all.begin(), all.end(), [](const Case* entry) {
+    const results::RunResult& r = entry->result;
+    return r.final_scores.position_rmse_m || r.online_scores.position_rmse_m ||
+           r.final_relations.relations_translation_mean_m ||
+           r.online_relations.relations_translation_mean_m;
+  });
+}
+
+bool is_simulated(const Cases& cases, const std::string& dataset) {
+  const std::vector<const Case*> all = cases.of(dataset);
+  return std::any_of(all.begin(), all.end(),
+                     [](const Case* entry) { return entry->result.data_seed.has_value(); });
+}
+
+int decimals_for(const Metric& metric, double value) {
+  int decimals = metric.decimals;
+  if (value == 0 || !std::isfinite(value)) return decimals;
+  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (metric.digits_min > 0) decimals = std::max(decimals, metric.digits_min - 1 - magnitude);
+  if (metric.digits_max > 0) decimals = std::min(decimals, metric.digits_max - 1 - magnitude);
+  return decimals;
+}
+
 Cell summarise(const Cases& cases, const std::string& dataset, const Series& series,
                const Metric& metric, const std::string& reason) {
   const int of = num_worlds(cases, dataset, series);
@@ -77,7 +102,7 @@ Cell summarise(const Cases& cases, const std::string& dataset, const Series& ser
   estimate.median = *statistics::median(values);
   estimate.n = static_cast<int>(values.size());
   estimate.of = of;
-  estimate.decimals = metric.decimals;
+  estimate.decimals = decimals_for(metric, estimate.median);
   if (estimate.n >= kMinValuesForInterval) {
     if (const auto interval = statistics::bootstrap_median(values)) {
       estimate.low = interval->low;

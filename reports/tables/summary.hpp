@@ -25,7 +25,12 @@ struct Metric {
   std::string unit;
   int decimals = 3;
   std::function<std::optional<double>(const results::RunResult&)> value;
+  int digits_min = 0;  // significant digits of a median, whatever `decimals` says; 0: as it says
+  int digits_max = 0;  // 0: all that `decimals` leaves
 };
+
+// Decimals that show a value with the metric's digits; negative ones round to tens, hundreds, ...
+int decimals_for(const Metric& metric, double value);
 
 using WorldValues = std::map<reports::World, double>;
 
@@ -40,6 +45,11 @@ int num_worlds(const reports::Cases& cases, const std::string& dataset,
 // Of these, those in which every case ended with status ok.
 int num_ok_worlds(const reports::Cases& cases, const std::string& dataset,
                   const reports::Series& series);
+
+// Whether any case of a data set has an error against true poses or relations: without one nobody
+// knows whether a system that ended with status ok was right.
+bool is_scored(const reports::Cases& cases, const std::string& dataset);
+bool is_simulated(const reports::Cases& cases, const std::string& dataset);
 
 // The Estimate of world_values, or Missing "REASON (0/10)"; Missing "not run" without cases.
 Cell summarise(const reports::Cases& cases, const std::string& dataset,

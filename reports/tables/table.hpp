@@ -15,8 +15,9 @@ struct Estimate {
   std::optional<double> low, high;  // absent where there are too few values for an interval
   int n = 0;                        // values behind it
   int of = 0;                       // values there could have been
-  int decimals = 3;                 // when written for people; CSV has every digit
-  bool is_best = false;             // the difference to every rival is shown to be real
+  int decimals = 3;      // when written for people, below 0 rounded to tens; CSV has every digit
+  bool is_best = false;  // the difference to every rival is shown to be real
+  bool is_published = false;  // another's figure of one run, not run here
 };
 
 struct Number {
@@ -42,6 +43,7 @@ struct Column {
   std::string key;      // for programs: snake_case with its unit; CSV header
   ColumnKind kind = ColumnKind::kText;
   bool is_optional = false;  // for people left out without a word where no row has a value
+  bool is_kept = false;      // for people in the table even if it is the same in every row
 };
 
 // Invariant: every row has one cell per column.

@@ -1,6 +1,9 @@
 // Numbers as people read them, and the Markdown and CSV writers.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "reports/escape.hpp"
 #include "reports/tables/condensed.hpp"
 #include "reports/tables/writers.hpp"
@@ -52,7 +55,9 @@ std::string csv_heading(const Column& column) {
 }  // namespace
 
 std::string number_text(double value, int decimals) {
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const double unit = std::pow(10.0, -decimals);
+  const double shown = decimals < 0 ? std::round(value / unit) * unit : value;
+  const std::string text = fmt::format("{:.{}f}", shown, std::max(0, decimals));
   const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
   return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
@@ -64,6 +69,7 @@ std::string interval_text(const Estimate& estimate) {
 }
 
 std::string count_text(const Estimate& estimate) {
+  if (estimate.is_published) return "one run";
   return fmt::format("{}/{}", estimate.n, estimate.of);
 }
 

@@ -155,7 +155,7 @@ TEST(StageFigure, ShowsEveryStageThatMattersWithShareAndCount) {
   EXPECT_THAT(figure->svg.element(),
               ::testing::AllOf(HasSubstr("time [ms]"), HasSubstr(">match<"),
                                HasSubstr(">resample<"), HasSubstr("74 %, n = 500"),
-                               HasSubstr("85 × real time"), Not(HasSubstr(">other<"))));
+                               HasSubstr("85.0 × real time"), Not(HasSubstr(">other<"))));
 }
 
 TEST(StageFigure, WithoutTimesIsNone) {

@@ -79,6 +79,15 @@ TEST(DataSets, WhoseContentOneFailedCaseNeverSawStayOne) {
   EXPECT_EQ(cases.datasets(), std::vector<std::string>{"synthetic-corridor"});
 }
 
+TEST(Cases, OfOneExperimentStandOnceAndTheNewestDoes) {
+  RunResult newer = karto_result();
+  newer.final_scores.position_rmse_m = 7;
+  const Cases cases = make_cases({karto_result(), newer, karto_result(2)});
+  ASSERT_EQ(cases.all().size(), 2U);
+  EXPECT_EQ(cases.num_set_aside(), 1U);
+  EXPECT_EQ(cases.all()[0].result.final_scores.position_rmse_m, 7);
+}
+
 TEST(SeriesLabel, NamesTheParameterThatDiffers) {
   EXPECT_EQ(labels(make_cases({changed_result("30"), changed_result("99")})),
             (std::vector<std::string>{"karto (num_particles=30)", "karto (num_particles=99)"}));

@@ -111,6 +111,10 @@ TEST(Condense, KeepsEstimatesEvenIfTheyAreEqual) {
   EXPECT_EQ(condense(table).table.columns.size(), 2U);
 }
 
+TEST(NumberText, RoundsToTensAndThousandsBelowZeroDecimals) {
+  EXPECT_EQ(number_text(249271.3, -3), "249000");
+}
+
 TEST(NumberText, NeverWritesMinusZero) {
   EXPECT_EQ(number_text(-0.0001, 3), "0.000");
   EXPECT_EQ(number_text(-0.001, 3), "-0.001");

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/html/caveats.hpp"
+#include "reports/tables/report_tables.hpp"
+#include "reports/tables/writers.hpp"
 #include "tests/reports/synthetic_run.hpp"
 
 namespace corridor::reports {
@@ -100,10 +103,31 @@ TEST(Verdicts, SayThatALeadWasWonInFewerWorlds) {
 TEST(Verdicts, OfTooFewWorldsCompareNothing) {
   const auto run = run_of({{"karto", 0.06}, {"fusion", 0.01}});
   const auto sentences = all_sentences(synthetic_cases(run, 5));
-  EXPECT_THAT(sentences, Contains(HasSubstr("It is not compared with that of karto (fewer than 6 "
-                                            "common worlds).")));
-  EXPECT_THAT(sentences, Contains(HasSubstr("b has too few worlds for a verdict")));
-  EXPECT_THAT(sentences, Not(Contains(HasSubstr("shown to be"))));
+  EXPECT_THAT(sentences,
+              ElementsAre("Too few worlds for a verdict (5 at most, 6 are needed): see the tables.",
+                          "All 10 cases ended with status ok."));
+}
+
+TEST(Verdicts, OfRecordedDataCountRunsAndNotWorlds) {
+  std::vector<Case> all = synthetic_cases(run_of({{"karto", 0.06}}), 3).all();
+  for (Case& entry : all) entry.result.system_seed = *entry.result.data_seed;
+  for (Case& entry : all) entry.result.data_seed.reset();
+  EXPECT_THAT(all_sentences(Cases(all, {}, {})),
+              Contains(StartsWith("Too few runs for a verdict (3 at most, 6 are needed;")));
+}
+
+TEST(Verdicts, OfDataWithoutTruthSendTheReaderToTheMaps) {
+  std::vector<Case> all = synthetic_cases(run_of({{"karto", 0.06}}), 1).all();
+  all[0].result.dataset = "malaga";
+  all[0].result.data_seed.reset();
+  all[0].result.final_scores = all[0].result.online_scores = {};
+  const Cases cases(all, {}, {});
+  EXPECT_THAT(all_sentences(cases), Contains("malaga: no truth is known; look at the maps."));
+  EXPECT_THAT(all_sentences(cases), Contains(StartsWith("1 of those that ended are not scored")));
+  const tables::Table table = tables::outcome_table(cases);
+  EXPECT_THAT(tables::to_csv(table), HasSubstr("malaga,karto,1,0,0,0,0,0,0,0,1"));
+  EXPECT_THAT(table.notes, Contains(StartsWith("ended; not scored: no true poses, no relations.")));
+  EXPECT_THAT(html::caveats(cases), Contains(StartsWith("malaga: not scored:")));
 }
 
 TEST(Verdicts, OfOneSystemCompareNothing) {

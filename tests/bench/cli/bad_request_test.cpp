@@ -57,7 +57,7 @@ TEST(BadRequest, StampsOutOfOrder) {
 TEST(BadRequest, AnUnknownSystem) {
   const ScratchFolder folder;
   expect_refused(folder, "run smoke --system nobody --out o",
-                 {"unknown system \"nobody\"", "one of", "karto"});
+                 {"--system: unknown system \"nobody\"; expected one of: ", "karto"});
 }
 
 TEST(BadRequest, AnUnknownKeyInASuite) {
@@ -71,9 +71,12 @@ TEST(BadRequest, AnUnknownKeyInASuite) {
 TEST(BadRequest, UnknownNames) {
   const ScratchFolder folder;
   expect_refused(folder, "run nosuite --out o", {"nosuite", "smoke"});
-  expect_refused(folder, "run smoke --backend magic --out o", {"magic", "levenberg"});
+  expect_refused(folder, "run smoke --backend magic --out o",
+                 {"--backend: unknown back-end \"magic\"; expected one of: ", "levenberg"});
   expect_refused(folder, "run smoke --dataset nowhere --out o", {"nowhere"});
-  expect_refused(folder, "run smoke --set karto.nope=1 --out o", {"nope"});
+  expect_refused(
+      folder, "run smoke --set karto.nope=1 --out o",
+      {"--set: system karto: unknown parameter nope (nearest: ", "list profiles --json"});
   expect_refused(folder, "run smoke --system karto --out o --set gmapping.particles=5",
                  {"--set: system \"gmapping\" is not run; expected one of: karto"});
   expect_refused(folder,
@@ -118,6 +121,7 @@ TEST(BadRequest, FilesThatCannotBeReadOrWritten) {
   expect_refused(folder, "simulate paper-corridor --out x.txt", {"x.txt", ".rawlog"});
   expect_refused(folder, "convert no.clf x.rawlog", {"no.clf"});
   expect_refused(folder, "report nowhere --out r", {"nowhere"});
+  expect_refused(folder, "report nowhere --out r/s/", {"nowhere"});
 }
 
 TEST(BadRequest, ASimulationThatCannotBeWrittenLeavesTheFilesThatWereThere) {
@@ -161,7 +165,8 @@ TEST(BadRequest, AnEvaluationWithNothingToCompare) {
   folder.write("far.tum", "1000 0 0 0 0 0 0 1\n2000 1 0 0 0 0 0 1\n");
   folder.write("bad.tum", "1 0 0 0 0 0 0 1\n2 1 0 zero 0 0 0 1\n");
   expect_refused(folder, "evaluate --estimate e.tum", {"--truth"});
-  expect_refused(folder, "evaluate --estimate e.tum --truth no.tum", {"no.tum"});
+  expect_refused(folder, "evaluate --estimate e.tum --truth no.tum",
+                 {"no.tum: no such file; expected a trajectory, TUM"});
   expect_refused(folder, "evaluate --estimate e.tum --truth bad.tum", {"bad.tum:2"});
   expect_refused(folder, "evaluate --estimate e.tum --truth far.tum", {"no pose could be matched"});
   folder.write("far.relations", "1000 2000 1 0 0 0 0 0\n");

@@ -159,7 +159,8 @@ TEST(Run, SaysWhatIsInItsFolderFromRunsBefore) {
   const Answer again = run_smoke(folder, "--system fusion-paper --out o --no-report");
   EXPECT_EQ(again.out.find("earlier runs"), std::string::npos) << "its cases are replaced";
   const Answer other = run_smoke(folder, "--system fusion-paper --seed 9 --out o --no-report");
-  EXPECT_NE(other.out.find("/o: 1 case of earlier runs (suite smoke) stays here"), std::string::npos)
+  EXPECT_NE(other.out.find("/o: 1 case of earlier runs (suite smoke) stays here"),
+            std::string::npos)
       << other.out;
 }
 
@@ -176,6 +177,33 @@ TEST(Run, LeavesAFolderToTheRunThatIsWritingToIt) {
             std::string::npos)
       << second.err;
   EXPECT_FALSE(fs::exists(folder / "o" / "results.sqlite"));
+}
+
+TEST(Report, LeavesAFolderToTheRunThatIsWritingToIt) {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "o");
+  const Answer answer =
+      run_program(folder, "--version >/dev/null; flock o/.lock '" CORRIDOR_BINARY_DIR
+                          "/bin/corridor-bench' "
+                          "report o --out o");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("another run is writing to this folder"), std::string::npos)
+      << answer.err;
+}
+
+TEST(Run, NotesThatADataSetWithoutTruthIsNotScored) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out mine.rawlog").exit_code, 0);
+  fs::remove(folder / "mine.tum");
+  fs::remove(folder / "mine.truth.toml");
+  const Answer answer =
+      run_program(folder, "run --system dead-reckoning --dataset mine.rawlog --out o --no-report");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto store = results::ResultsStore::open_read_only(folder / "o" / "results.sqlite");
+  const results::RunResult result = store->read_all().value().front();
+  EXPECT_EQ(result.status, results::CaseStatus::kOk);
+  EXPECT_EQ(result.notes, std::vector<std::string>{"not scored: the data set has neither true "
+                                                   "poses nor relations"});
 }
 
 TEST(Run, EndsWithOneIfACaseFails) {

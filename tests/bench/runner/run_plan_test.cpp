@@ -179,6 +179,12 @@ TEST_F(RunPlanTest, DoesNotTakeTheRecordOfAnEarlierRunForThatOfACrash) {
   EXPECT_EQ(only_record().status, CaseStatus::kFailed);
 }
 
+TEST_F(RunPlanTest, RemovesThePageOfAnEarlierRun) {
+  folder_.write("out/index.html", "a page without this run's cases");
+  ASSERT_TRUE(run({spec_of(1)}, "exit 2").has_value());
+  EXPECT_FALSE(fs::exists(out() / "index.html"));
+}
+
 TEST_F(RunPlanTest, LeavesNothingButFinishedCases) {
   ASSERT_TRUE(run({spec_of(1), spec_of(2)}, "mkdir -p \"$4/runs/.half.partial\"; kill -KILL $$")
                   .has_value());
@@ -213,6 +219,23 @@ TEST_F(RunPlanTest, ResumesNothingWhoseSpecChanged) {
   changed.limits.time_s = 19;
   ASSERT_TRUE(run({changed}, kCounting, true).has_value());
   EXPECT_EQ(num_calls(folder_), 2U);
+}
+
+TEST_F(RunPlanTest, ResumesNothingThatAnotherBuildHasRun) {
+  ASSERT_TRUE(run({spec_of(1), spec_of(2)}, kCounting).has_value());
+  for (const std::optional<std::string>& build :
+       {std::optional<std::string>("0123456789ab"), std::optional<std::string>()}) {
+    results::RunResult record = stored().front();
+    ASSERT_TRUE(record.build_id.has_value());
+    record.build_id = build;
+    std::ofstream(case_folder(out(), record.case_id) / "result.json") << results::to_json(record);
+    const auto summary = run({spec_of(1), spec_of(2)}, kCounting, true);
+    EXPECT_EQ(summary->num_kept, 1U);
+    EXPECT_NE(text_in("out/log.txt")
+                  .find("1 finished case is not kept: run by another build of the program"),
+              std::string::npos);
+  }
+  EXPECT_EQ(num_calls(folder_), 4U);
 }
 
 TEST_F(RunPlanTest, RunsEverythingAgainWithoutResume) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "bench/runner/overrides.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace corridor::runner {
@@ -91,7 +92,7 @@ TEST(Suite, RefusesLimitsThatAreNone) {
 
 TEST(Suite, RefusesOverridesThatTheSystemRefuses) {
   EXPECT_REFUSED(with("buffer_size_scans = 20", "buffer_size = 20"),
-                 "unknown parameter buffer_size ");
+                 "unknown parameter buffer_size (nearest: buffer_size_scans, ");
   EXPECT_REFUSED(with("buffer_size_scans = 20", "buffer_size_scans = 0"),
                  "buffer_size_scans = 0: expected 1 to");
   EXPECT_REFUSED(with("buffer_size_scans = 20", "buffer_size_scans = [1]"),
@@ -136,10 +137,39 @@ TEST(Suites, OfTheTreeAreAllReadAndNamedAsTheirFiles) {
   }
 }
 
+TEST(Suites, OfTheTreeSimulateNoSeedThatIsForDevelopment) {
+  for (const std::filesystem::path& path : list_suites()) {
+    const Result<Suite> suite = read_suite(path);
+    ASSERT_TRUE(suite.has_value()) << suite.error().to_line();
+    EXPECT_TRUE(suite->scenarios.empty() || suite->first_seed > 1000) << path;
+  }
+}
+
 TEST(Suites, AreFoundByNameAndByPathAndTheKnownOnesAreNamed) {
   EXPECT_TRUE(find_suite("smoke").has_value());
   EXPECT_NE(find_suite("smoky").error().to_line().find("smoke"), std::string::npos);
   EXPECT_EQ(find_suite("no/such.toml").error().code, ErrorCode::kNotFound);
+}
+
+TEST(Overrides, AMisspeltNameIsAnsweredWithTheNearestOnesNearestFirst) {
+  const std::vector<std::string> names = {"num_beams", "range_m", "ranges", "sigma_m"};
+  EXPECT_EQ(nearest_names("rnge_m", names),
+            (std::vector<std::string>{"range_m", "ranges", "sigma_m"}));
+  EXPECT_EQ(nearest_names("beams", names).front(), "num_beams") << "a part of the name";
+  EXPECT_EQ(nearest_names("x", {"y"}), std::vector<std::string>{"y"});
+  EXPECT_TRUE(nearest_names("x", {}).empty());
+}
+
+TEST(Overrides, UnknownNamesAndBrokenRulesAreListedTogetherInAShortLine) {
+  const auto refused = resolve_overrides(*find_system("karto"), "shipped",
+                                         {{"bufer_size_scans", "5"}, {"buffer_size_scans", "0"}});
+  ASSERT_FALSE(refused.has_value());
+  const std::string line = refused.error().to_line();
+  for (const char* part : {"unknown parameter bufer_size_scans (nearest: buffer_size_scans, ",
+                           "buffer_size_scans = 0: expected", "list profiles --json"}) {
+    EXPECT_NE(line.find(part), std::string::npos) << part << " in " << line;
+  }
+  EXPECT_LT(line.size(), 300U) << line;
 }
 
 TEST(Overrides, OfTheCommandLineAreCheckedAgainstTheSystem) {
