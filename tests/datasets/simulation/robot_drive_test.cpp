@@ -125,5 +125,37 @@ TEST(Drive, SaysWhenAWaypointWasNotReachedInTheTimeAllowed) {
   EXPECT_FALSE(drive_of_seed(1, params).is_complete);
 }
 
+TEST(Drive, StandsThenTurnsAsOftenAsStatedOnTheSpot) {
+  for (const double turns : {-1.25, 0.1, 3.0}) {
+    const DriveParams params{.stand_s = 2, .spin_turns = turns, .stays = true};
+    const Drive drive = drive_of_seed(1, params);
+    EXPECT_TRUE(drive.is_complete);
+    double turned_rad = 0;
+    for (std::size_t k = 1; k < drive.states.size(); ++k) {
+      EXPECT_EQ(drive.states[k].T_world_base.translation_m(),
+                drive.states[0].T_world_base.translation_m());
+      const double step_rad =
+          drive.states[k].T_world_base.minus(drive.states[k - 1].T_world_base).z();
+      if (k <= 400) {
+        EXPECT_EQ(step_rad, 0);
+      }
+      turned_rad += step_rad;
+    }
+    // It comes to rest within a step at full rate.
+    EXPECT_NEAR(turned_rad, 2 * std::numbers::pi * turns, params.yaw_rate_max_radps * kStep_s);
+    EXPECT_EQ(drive.states.back().yaw_rate_radps, 0);
+  }
+}
+
+RC_GTEST_PROP(Drive, FollowsADrawnRouteToItsEnd, (std::uint64_t seed)) {
+  World world = world_of({{{-50, -50}, {50, -50}}});
+  world.route_m = {{0, 0}, {8, 0}, {8, 6}, {2, 9}};
+  const DriveParams params{.lateral_spread_m = 0.3};
+  const Drive drive = drive_along(draw_plan(world, params, Rng(seed)), params, kStep_s);
+  RC_ASSERT(drive.is_complete);
+  const Eigen::Vector2d end_m = drive.states.back().T_world_base.translation_m();
+  RC_ASSERT((end_m - Eigen::Vector2d(2, 9)).norm() <= 0.3 + params.waypoint_reach_m + kTight);
+}
+
 }  // namespace
 }  // namespace corridor::simulation::testing

@@ -71,5 +71,39 @@ TEST(Truth, NamesUnknownKeysMissingTablesAndBadListsWithTheirLines) {
   EXPECT_NE(error.find("no table [start]"), std::string::npos) << error;
 }
 
+TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
+  const ScratchFolder folder;
+  Scenario scenario = shipped_scenario("paper-corridor-real");
+  scenario.drive.acceleration_mps2 = 1.5;
+  scenario.drive.friction_limit_mps2 = 0.3;
+  scenario.slip.num_slips = 2;
+  scenario.imu.time_offset_sigma_s = 0.01;
+  const Simulated simulated = simulate(scenario, 5);
+  const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
+  ASSERT_TRUE(again) << again.error().to_line();
+  EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
+  EXPECT_EQ(again->imu.misalignment_rad, simulated.truth.imu.misalignment_rad);
+  EXPECT_EQ(again->wheels.track_ratio, simulated.truth.wheels.track_ratio);
+  EXPECT_EQ(again->lidar_time_offset_s, simulated.truth.lidar_time_offset_s);
+  EXPECT_EQ(again->imu_time_offset_s, simulated.truth.imu_time_offset_s);
+  ASSERT_EQ(again->slips.size(), simulated.truth.slips.size());
+  ASSERT_GT(again->slips.size(), 2u);
+  for (std::size_t i = 0; i < again->slips.size(); ++i) {
+    EXPECT_EQ(again->slips[i].cause, simulated.truth.slips[i].cause);
+    EXPECT_EQ(again->slips[i].begin_s, simulated.truth.slips[i].begin_s);
+  }
+}
+
+TEST(Truth, CarriesADrawnWorld) {
+  const ScratchFolder folder;
+  const Simulated simulated = simulate(shipped_scenario("clutter"), 1);
+  const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
+  ASSERT_TRUE(again) << again.error().to_line();
+  EXPECT_EQ(again->world.walls.size(), simulated.world.walls.size());
+  EXPECT_EQ(again->world.arcs.size(), 2u);
+  EXPECT_EQ(again->world.material_of_surface, simulated.world.material_of_surface);
+  EXPECT_EQ(again->world.route_m, simulated.world.route_m);
+}
+
 }  // namespace
 }  // namespace corridor::simulation::testing
