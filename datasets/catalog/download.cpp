@@ -173,13 +173,13 @@ class Request {
   }
 
   Ending transfer_failed(CURLcode code) {
-    const std::string_view detail(message_.data());
-    failed(ErrorCode::kUnreadable, detail.empty() ? curl_easy_strerror(code) : std::string(detail),
-           "the whole file");
     // What no repetition mends: the address, the certificate.
     const bool is_final = code == CURLE_COULDNT_RESOLVE_HOST || code == CURLE_COULDNT_CONNECT ||
                           code == CURLE_PEER_FAILED_VERIFICATION || code == CURLE_URL_MALFORMAT ||
                           code == CURLE_UNSUPPORTED_PROTOCOL;
+    const std::string_view detail(message_.data());
+    failed(ErrorCode::kUnreadable, detail.empty() ? curl_easy_strerror(code) : std::string(detail),
+           is_final ? "an answer of the server" : "the whole file");
     return is_final ? Ending::kFailed : Ending::kCut;
   }
 

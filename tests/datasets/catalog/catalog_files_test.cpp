@@ -4,6 +4,7 @@
 #include "datasets/catalog/catalog.hpp"
 #include "datasets/catalog/sha256.hpp"
 #include "datasets/formats/file_bytes.hpp"
+#include "datasets/formats/log_health.hpp"
 #include "tests/datasets/catalog/catalog_support.hpp"
 
 namespace corridor::catalog {
@@ -168,6 +169,27 @@ TEST(Catalog, EveryFileThatIsFoundHasItsChecksum) {
     }
   }
   if (num_found == 0) GTEST_SKIP() << "no data found; set $CORRIDOR_BENCH_DATA to their folder";
+}
+
+// The report's rules have margins that no sound recording comes near.
+TEST(Catalog, EveryLogThatIsFoundIsFitAndUnderNoSuspicion) {
+  const auto catalog =
+      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
+  ASSERT_TRUE(catalog.has_value());
+  const DataDirs dirs = standard_data_dirs();
+  std::size_t num_examined = 0;
+  for (const DatasetRow& row : list_datasets(*catalog, dirs)) {
+    if (!row.is_found || !row.is_readable) continue;
+    const auto source = find_log(row.name, dirs, *catalog);
+    ASSERT_TRUE(source.has_value()) << source.error().to_line();
+    const auto found = formats::read_log_as_found(source->path, source->options);
+    ASSERT_TRUE(found.has_value()) << found.error().to_line();
+    const formats::LogHealth health = formats::examine(found->log);
+    EXPECT_TRUE(health.defects.empty()) << row.name << ": " << health.defects.front();
+    EXPECT_TRUE(health.suspicions.empty()) << row.name << ": " << health.suspicions.front();
+    ++num_examined;
+  }
+  if (num_examined == 0) GTEST_SKIP() << "no data found; set $CORRIDOR_BENCH_DATA to their folder";
 }
 
 // Every catalogued graph that this machine has is what a solver can take.
