@@ -17,6 +17,8 @@
 #include "bench/cli/convert_command.hpp"
 #include "bench/cli/data_command.hpp"
 #include "bench/cli/evaluate_command.hpp"
+#include "bench/cli/fetch_command.hpp"
+#include "bench/cli/inspect_command.hpp"
 #include "bench/cli/list_command.hpp"
 #include "bench/cli/report_command.hpp"
 #include "bench/cli/run_case_command.hpp"
@@ -42,6 +44,8 @@ struct Commands {
   corridor::cli::ReportCommand report;
   corridor::cli::DataListCommand data_list;
   corridor::cli::DataVerifyCommand data_verify;
+  corridor::cli::FetchCommand data_fetch;
+  corridor::cli::InspectCommand data_inspect;
 };
 
 using Action = std::function<Result<ExitCode>()>;
@@ -74,6 +78,10 @@ std::vector<std::pair<const CLI::App*, Action>> declare(CLI::App& app, Commands&
       [&c] { return c.data_list.run(); });
   add(*data, "verify", "Compare data sets with the catalogue's checksums", c.data_verify,
       [&c] { return c.data_verify.run(); });
+  add(*data, "fetch", "Download data sets and compare their checksums", c.data_fetch,
+      [&c] { return c.data_fetch.run(); });
+  add(*data, "inspect", "What a log holds and what is wrong with it", c.data_inspect,
+      [&c] { return c.data_inspect.run(); });
   return actions;
 }
 

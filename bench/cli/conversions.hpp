@@ -9,9 +9,10 @@
 
 namespace corridor::cli {
 
-// `in`: a log file or the name of a data set. Truth, relations and world go along.
+// `in`: a log file or the name of a data set. Truth, relations and world go along. A data set whose
+// files are others than the catalogue's is taken on request, and said.
 Result<ExitCode> convert_log(const std::string& in, const std::filesystem::path& out,
-                             const CommonOptions& common);
+                             bool accept_other_checksum, const CommonOptions& common);
 
 Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::filesystem::path& out,
                                const CommonOptions& common);

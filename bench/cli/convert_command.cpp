@@ -48,6 +48,10 @@ void ConvertCommand::add_to(CLI::App& command) {
                   ".kitti .csv .clf) or pose graph (.g2o .graph)")
       ->required()
       ->type_name("OUT");
+  command.add_flag(
+      "--accept-other-checksum", accept_other_checksum,
+      "Take a data set's log although its files are not the catalogue's: for canonical "
+      "versions of derived logs");
   common.add_to(command);
 }
 
@@ -58,7 +62,7 @@ Result<ExitCode> ConvertCommand::run() const {
   if (is_graph(in)) return convert_graph(in, out, common);
   const bool takes_poses = is_carmen(in) && is_trajectory_only(out);
   if (is_trajectory_only(in) || takes_poses) return convert_trajectory(in, out, common);
-  return convert_log(in, out, common);
+  return convert_log(in, out, accept_other_checksum, common);
 }
 
 }  // namespace corridor::cli

@@ -12,6 +12,7 @@ struct ConvertCommand {
   CommonOptions common;
   std::string in;
   std::string out;
+  bool accept_other_checksum = false;
 
   void add_to(CLI::App& command);
   [[nodiscard]] Result<ExitCode> run() const;

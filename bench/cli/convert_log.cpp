@@ -80,14 +80,18 @@ Result<void> write_all(const catalog::LoadedDataset& in, const fs::path& out) {
 
 }  // namespace
 
-Result<ExitCode> convert_log(const std::string& in, const fs::path& out,
+Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool accept_other_checksum,
                              const CommonOptions& common) {
   const auto target = formats::format_from_suffix(out);
   if (!target || !formats::is_writable(*target)) {
     return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written",
                 out.string(), ".rawlog, .clf, .clf.gz or .bag");
   }
-  const Result<catalog::LoadedDataset> loaded = runner::load_dataset(in, common.data_dirs());
+  catalog::LoadOptions as_it_is;
+  as_it_is.keep_lidar_clock = true;
+  as_it_is.accept_other_checksum = accept_other_checksum;
+  const Result<catalog::LoadedDataset> loaded =
+      runner::load_dataset(in, common.data_dirs(), as_it_is);
   if (!loaded) return tl::make_unexpected(loaded.error());
   if (const Result<void> good = check_convert(*loaded, out); !good) {
     return tl::make_unexpected(good.error());
@@ -96,6 +100,9 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out,
     return tl::make_unexpected(written.error());
   }
   const std::vector<std::string> losses = formats::losses_of_conversion(loaded->log, *target);
+  if (accept_other_checksum) {
+    for (const std::string& note : loaded->log.provenance.notes) common.say("note: " + note);
+  }
   for (const std::string& loss : losses) common.say(fmt::format("lost: {}", loss));
   common.say(fmt::format("{}: {} scans, {} wheel samples, {} inertial samples{}", out.string(),
                          loaded->log.num_scans(), loaded->log.num_wheel_samples(),

@@ -86,17 +86,20 @@ Result<Listing> list_backends(const CommonOptions&) {
 Result<Listing> list_datasets(const CommonOptions& common) {
   const Result<catalog::Catalog> known = catalog::read_catalog();
   if (!known) return tl::make_unexpected(known.error());
-  Listing listing{Json::array(), {"name", "format", "truth", "is_found", "title"}};
+  Listing listing{Json::array(), {"name", "format", "truth", "is_found", "is_fetchable", "title"}};
   for (const catalog::DatasetRow& row : catalog::list_datasets(*known, common.data_dirs())) {
-    listing.items.push_back({{"name", row.name},
-                             {"title", row.title},
-                             {"format", row.format},
-                             {"truth", catalog::to_text(row.truth)},
-                             {"is_found", row.is_found},
-                             {"is_readable", row.is_readable},
-                             {"path", row.is_found ? Json(row.path.string()) : Json(nullptr)},
-                             {"licence", row.licence},
-                             {"source", row.source}});
+    listing.items.push_back(
+        {{"name", row.name},
+         {"title", row.title},
+         {"format", row.format},
+         {"truth", catalog::to_text(row.truth)},
+         {"is_found", row.is_found},
+         {"is_readable", row.is_readable},
+         {"path", row.is_found ? Json(row.path.string()) : Json(nullptr)},
+         {"licence", row.licence},
+         {"source", row.source},
+         {"is_fetchable", row.is_fetchable},
+         {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)}});
   }
   return listing;
 }

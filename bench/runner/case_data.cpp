@@ -7,12 +7,25 @@
 
 #include "bench/metrics/relations.hpp"
 #include "bench/metrics/score_case.hpp"
+#include "datasets/formats/lidar_clock.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "datasets/simulation/simulate.hpp"
 
 namespace corridor::runner {
 namespace {
+
+// Intervals of scans carry the scans' stamps, in whole nanoseconds.
+void move_degenerate(double lidar_time_offset_s, simulation::SimulationTruth& truth) {
+  if (lidar_time_offset_s == 0 || !truth.degenerate) return;
+  const auto moved_s = [lidar_time_offset_s](double stamp_s) {
+    return to_seconds(add_seconds(timestamp_from_seconds(stamp_s), -lidar_time_offset_s));
+  };
+  for (simulation::DegenerateInterval& interval : *truth.degenerate) {
+    interval.begin_s = moved_s(interval.begin_s);
+    interval.end_s = moved_s(interval.end_s);
+  }
+}
 
 Result<CaseData> simulated_data(const CaseSpec& spec) {
   const Result<simulation::Scenario> scenario = simulation::load_scenario(spec.data_source);
@@ -22,6 +35,7 @@ Result<CaseData> simulated_data(const CaseSpec& spec) {
   data.log = std::move(simulated.log);
   data.world = std::move(simulated.world);
   data.simulation_truth = std::move(simulated.truth);
+  move_degenerate(formats::move_onto_wheel_clock(data.log, nullptr), *data.simulation_truth);
   return data;
 }
 
@@ -36,6 +50,7 @@ Result<CaseData> recorded_data(const CaseSpec& spec, const catalog::DataDirs& di
     if (!truth) return tl::make_unexpected(truth.error());
     data.world = truth->world;
     data.simulation_truth = std::move(*truth);
+    move_degenerate(loaded->lidar_time_offset_s, *data.simulation_truth);
   }
   return data;
 }
@@ -85,8 +100,9 @@ Result<void> check_relations(const SensorLog& log,
 }  // namespace
 
 Result<catalog::LoadedDataset> load_dataset(const std::string& name_or_path,
-                                            const catalog::DataDirs& dirs) {
-  Result<catalog::LoadedDataset> loaded = catalog::load_dataset(name_or_path, dirs);
+                                            const catalog::DataDirs& dirs,
+                                            const catalog::LoadOptions& options) {
+  Result<catalog::LoadedDataset> loaded = catalog::load_dataset(name_or_path, dirs, options);
   std::error_code ignored;
   if (!loaded && loaded.error().code == ErrorCode::kNotFound &&
       std::filesystem::is_directory(name_or_path, ignored)) {

@@ -1,5 +1,6 @@
 // The data of a case, simulated or loaded, with everything that is known for scoring.
-// A system is shown the events and the robot model only.
+// A system is shown the events and the robot model only. All stamps are of the wheels' clock
+// (datasets/formats/lidar_clock.hpp).
 #pragma once
 
 #include <optional>
@@ -25,7 +26,8 @@ struct CaseData {
 
 // catalog::load_dataset(), but a folder is told to be one.
 Result<catalog::LoadedDataset> load_dataset(const std::string& name_or_path,
-                                            const catalog::DataDirs& dirs);
+                                            const catalog::DataDirs& dirs,
+                                            const catalog::LoadOptions& options = {});
 
 // The same for a log that is to be scored: truth or relations that meet none of its
 // scans are an Error, since they are of another clock, unit or log.

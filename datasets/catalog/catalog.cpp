@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
-#include "datasets/catalog/sha256.hpp"
 
 namespace corridor::catalog {
 namespace {
@@ -23,13 +23,13 @@ std::optional<std::filesystem::path> path_from_environment(const char* variable)
   return std::filesystem::path(value);
 }
 
+}  // namespace
+
 std::optional<std::filesystem::path> cache_folder() {
   if (const auto cache = path_from_environment("XDG_CACHE_HOME")) return *cache / kCacheFolder;
   if (const auto home = path_from_environment("HOME")) return *home / ".cache" / kCacheFolder;
   return std::nullopt;
 }
-
-}  // namespace
 
 DataDirs standard_data_dirs(const std::optional<std::filesystem::path>& data_dir) {
   DataDirs dirs;
@@ -58,6 +58,8 @@ bool CatalogEntry::is_readable() const {
                                                          "rosbag"};
   return std::find(kReadable.begin(), kReadable.end(), format) != kReadable.end();
 }
+
+bool CatalogEntry::is_graph() const { return format == "g2o" || format == "toro"; }
 
 const CatalogEntry* Catalog::find(std::string_view name) const {
   for (const CatalogEntry& entry : entries) {
@@ -88,7 +90,8 @@ std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& di
     const auto folder = find_folder(entry, dirs);
     const auto path = folder ? *folder / entry.files.front().path : std::filesystem::path();
     rows.push_back({entry.name, entry.title, folder.has_value(), entry.is_readable(), path,
-                    entry.format, entry.truth, entry.licence, entry.source});
+                    entry.format, entry.truth, entry.licence, entry.source,
+                    entry.not_fetchable.empty(), entry.not_fetchable});
   }
   return rows;
 }
@@ -104,7 +107,7 @@ Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::st
   for (const DataFile& file : entry->files) {
     VerifiedFile row{file.path, FileStatus::kMissing, "", file.sha256};
     if (folder && is_file(*folder / file.path)) {
-      auto sha256 = sha256_of_file(*folder / file.path);
+      auto sha256 = checksum_of(*folder / file.path, file);
       if (!sha256) return tl::make_unexpected(sha256.error());
       row.path = *folder / file.path;
       row.status = *sha256 == file.sha256 ? FileStatus::kMatches : FileStatus::kDiffers;

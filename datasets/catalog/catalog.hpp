@@ -1,5 +1,5 @@
 // The data sets the suite knows by name, where their files lie, and how to load one.
-// It downloads nothing and decides nothing about scoring.
+// It downloads nothing (fetch.hpp does) and decides nothing about scoring.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 #include "datasets/formats/bag_topics.hpp"
 #include "datasets/formats/log_io.hpp"
+#include "datasets/formats/pose_graph.hpp"
 #include "datasets/formats/relations.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
@@ -25,6 +26,9 @@ struct DataDirs {
 // ($XDG_CACHE_HOME/corridor-bench or ~/.cache/corridor-bench), what Debian's mrpt-common installs.
 DataDirs standard_data_dirs(const std::optional<std::filesystem::path>& data_dir = {});
 
+// $XDG_CACHE_HOME/corridor-bench or ~/.cache/corridor-bench; nullopt without either variable.
+std::optional<std::filesystem::path> cache_folder();
+
 // kReference: poses in the log itself that another program found while it was recorded; good for
 // comparing with that program, no truth.
 enum class TruthKind { kNone, kTum, kRelations, kReference };
@@ -33,24 +37,34 @@ std::string_view to_text(TruthKind kind);
 struct DataFile {
   std::filesystem::path path;  // relative to a data folder
   std::string sha256;          // lower-case hexadecimal
+  // True: the sum is that of the content without gzip, which publisher and folder may pack each in
+  // their own way; a path that ends in .gz is kept packed. False: it is that of the file's bytes.
+  bool is_sum_of_content = false;
+  std::string url;  // where the public gets it; empty: nowhere, see CatalogEntry::not_fetchable
 };
 
 struct CatalogEntry {
   std::string name;
   std::string title;
-  std::string format;  // "rawlog", "carmen", "lcm", "ticks", "rosbag"; others are listed only
-  std::vector<DataFile> files;  // the first is the log
+  std::string format;  // "rawlog", "carmen", "lcm", "ticks", "rosbag"; graphs: "g2o", "toro"
+  std::vector<DataFile> files;  // the first is the log or the graph
   TruthKind truth = TruthKind::kNone;
   std::string licence;  // as its publisher states it
-  std::string source;   // where the public gets it
+  std::string source;   // where it comes from
+  // Why `data fetch` cannot get it; empty if every file has a URL.
+  std::string not_fetchable;
   formats::StampOrder order = formats::StampOrder::kStamp;
+  // Of files with another checksum, where they are accepted: canonical logs may keep their rows in
+  // order and not their stamps.
+  std::optional<formats::StampOrder> order_of_other_files;
   std::optional<double> no_return_range_m;
   std::optional<double> cut_after_s;
   std::optional<RobotModel> robot;  // calibration for logs that carry none
   formats::RawSensors raw;
   std::optional<formats::BagTopics> topics;  // of a ROS bag
 
-  [[nodiscard]] bool is_readable() const;
+  [[nodiscard]] bool is_readable() const;  // as a sensor log
+  [[nodiscard]] bool is_graph() const;
 };
 
 struct Catalog {
@@ -69,6 +83,8 @@ struct LoadOptions {
   std::optional<formats::StampOrder> order;  // instead of the catalogue's (or kStamp for a file)
   // Load a catalogued log although its bytes are not those of the catalogue; noted in provenance.
   bool accept_other_checksum = false;
+  // Leave stamps as the files have them: for those who copy files that lie beside the log.
+  bool keep_lidar_clock = false;
 };
 
 struct LoadedDataset {
@@ -80,6 +96,8 @@ struct LoadedDataset {
   // Of all that decides what is run and scored: the log, what lies beside it (.robot.toml .tum
   // .relations .truth.toml), the order and the catalogue's calibration. `sha256` for a log alone.
   std::string digest;
+  // lidar.time_offset_s as it was stated: scans, and what carries their stamps, were moved by it.
+  double lidar_time_offset_s = 0;
 };
 
 // `name_or_path` is a catalogued name or the path of a log file; truth is LOG.tum or LOG.relations
@@ -88,6 +106,20 @@ Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs
                                    const LoadOptions& options = {});
 Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
                                    const Catalog& catalog, const LoadOptions& options = {});
+
+// Where a log lies and how the catalogue says to read it.
+struct LogSource {
+  std::string name;
+  std::filesystem::path path;
+  formats::ReadLogOptions options;
+  std::vector<std::string> notes;  // what was let through
+};
+Result<LogSource> find_log(std::string_view name_or_path, const DataDirs& dirs,
+                           const Catalog& catalog, const LoadOptions& options = {});
+
+// The same for a pose graph: a catalogued name, whose file must have its checksum, or a path.
+Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataDirs& dirs,
+                                      const Catalog& catalog);
 
 struct DatasetRow {
   std::string name;
@@ -99,6 +131,8 @@ struct DatasetRow {
   TruthKind truth = TruthKind::kNone;
   std::string licence;
   std::string source;
+  bool is_fetchable = false;
+  std::string not_fetchable;  // why
 };
 
 // One row per entry, in the catalogue's order.
@@ -110,7 +144,7 @@ std::string_view to_text(FileStatus status);
 struct VerifiedFile {
   std::filesystem::path path;  // where it was found, else as catalogued
   FileStatus status = FileStatus::kMissing;
-  std::string sha256;  // found; empty if missing
+  std::string sha256;  // found, by the rule of DataFile; empty if missing
   std::string sha256_expected;
 };
 

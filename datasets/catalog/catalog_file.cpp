@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "datasets/catalog/catalog.hpp"
+#include "datasets/catalog/public_url.hpp"
 #include "datasets/formats/bag_topics.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/robot_toml.hpp"
@@ -16,10 +17,30 @@ namespace corridor::catalog {
 namespace {
 
 constexpr std::size_t kSha256Digits = 64;
-constexpr std::array<std::string_view, 13> kKeys = {
-    "name",        "title",       "format",           "files",  "truth",
-    "order",       "licence",     "source",           "topics", "joints",
-    "cut_after_s", "calibration", "no_return_range_m"};
+constexpr std::array<std::string_view, 15> kKeys = {"name",
+                                                    "title",
+                                                    "format",
+                                                    "files",
+                                                    "truth",
+                                                    "order",
+                                                    "licence",
+                                                    "source",
+                                                    "topics",
+                                                    "joints",
+                                                    "cut_after_s",
+                                                    "calibration",
+                                                    "no_return_range_m",
+                                                    "not_fetchable",
+                                                    "order_of_other_files"};
+constexpr std::array<std::string_view, 4> kFileKeys = {"path", "sha256", "content_sha256", "url"};
+
+bool is_sha256(std::string_view text) {
+  return text.size() == kSha256Digits &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+constexpr const char* kFileForm =
+    R"(expected { path = "...", sha256 = "..." or content_sha256 = "...", url = "..." or none })";
 
 class EntryReader {
  public:
@@ -38,6 +59,7 @@ class EntryReader {
     entry_.licence = text("licence");
     entry_.source = text("source");
     take_files();
+    take_fetching();
     take_choices();
     entry_.no_return_range_m = positive_number("no_return_range_m");
     entry_.cut_after_s = positive_number("cut_after_s");
@@ -64,23 +86,55 @@ class EntryReader {
       return;
     }
     for (const toml::node& node : *files) {
-      const toml::table* file = node.as_table();
-      const auto path = file ? (*file)["path"].value<std::string>() : std::nullopt;
-      const auto sha256 = file ? (*file)["sha256"].value<std::string>() : std::nullopt;
-      if (!path || !sha256 || file->size() != 2) {
-        complain("files", R"(expected { path = "...", sha256 = "..." })");
-        continue;
+      if (const toml::table* file = node.as_table()) {
+        take_file(*file);
+      } else {
+        complain("files", kFileForm);
       }
-      if (sha256->size() != kSha256Digits ||
-          sha256->find_first_not_of("0123456789abcdef") != std::string::npos) {
-        complain("files", "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
-      }
-      const std::filesystem::path relative = *path;
-      if (relative.is_absolute() || *relative.begin() == "..") {
-        complain("files", *path + " does not lie in a data folder");
-      }
-      entry_.files.push_back({relative, *sha256});
     }
+  }
+
+  void take_file(const toml::table& table) {
+    const auto path = table["path"].value<std::string>();
+    const auto sha256 = table["sha256"].value<std::string>();
+    const auto content_sha256 = table["content_sha256"].value<std::string>();
+    const auto url = table["url"].value<std::string>();
+    bool is_known = true;
+    for (const auto& [key, node] : table) {
+      is_known = is_known && node.is_string() &&
+                 std::find(kFileKeys.begin(), kFileKeys.end(), key.str()) != kFileKeys.end();
+    }
+    if (!is_known || !path || sha256.has_value() == content_sha256.has_value()) {
+      complain("files", kFileForm);
+      return;
+    }
+    DataFile file{*path, sha256.value_or(content_sha256.value_or("")), content_sha256.has_value(),
+                  url.value_or("")};
+    if (!is_sha256(file.sha256)) {
+      complain("files", "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
+    }
+    if (url) {
+      if (const auto good = check_public_url(*url); !good) {
+        complain("files", "url of " + *path + ": " + good.error().to_line());
+      }
+    }
+    const std::filesystem::path relative = file.path.lexically_normal();
+    if (path->empty() || relative.is_absolute() || *relative.begin() == ".." ||
+        !relative.has_filename()) {
+      complain("files", *path + " does not lie in a data folder");
+    }
+    entry_.files.push_back(std::move(file));
+  }
+
+  // What cannot be fetched says why, and nothing else does.
+  void take_fetching() {
+    if (table_.contains("not_fetchable")) entry_.not_fetchable = text("not_fetchable");
+    if (entry_.files.empty()) return;
+    const bool has_urls = std::all_of(entry_.files.begin(), entry_.files.end(),
+                                      [](const DataFile& file) { return !file.url.empty(); });
+    if (has_urls == entry_.not_fetchable.empty()) return;
+    complain("not_fetchable", has_urls ? "every file has a url; expected no such key"
+                                       : "missing; expected the reason, or a url of every file");
   }
 
   void take_choices() {
@@ -94,12 +148,16 @@ class EntryReader {
     } else if (truth != "none") {
       complain("truth", "expected tum, relations, reference or none");
     }
-    const std::string order = text("order");
-    if (order == "file") {
-      entry_.order = formats::StampOrder::kFile;
-    } else if (order != "stamp") {
-      complain("order", "expected stamp or file");
+    entry_.order = order("order");
+    if (table_.contains("order_of_other_files")) {
+      entry_.order_of_other_files = order("order_of_other_files");
     }
+  }
+
+  formats::StampOrder order(std::string_view key) {
+    const std::string stated = text(key);
+    if (stated != "stamp" && stated != "file") complain(std::string(key), "expected stamp or file");
+    return stated == "file" ? formats::StampOrder::kFile : formats::StampOrder::kStamp;
   }
 
   std::optional<double> positive_number(std::string_view key) {

@@ -6,8 +6,11 @@
 #include <string_view>
 
 #include "datasets/catalog/catalog.hpp"
+#include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
 #include "datasets/catalog/sha256.hpp"
+#include "datasets/formats/lidar_clock.hpp"
+#include "datasets/formats/pose_graph_file.hpp"
 #include "datasets/formats/robot_toml.hpp"
 
 namespace corridor::catalog {
@@ -53,19 +56,22 @@ Result<std::string> digest_of(const std::filesystem::path& log, const std::strin
   return to_hex(sha256_of(fmt::format("log {}\n{}", log_sha256, text)));
 }
 
-Result<LoadedDataset> load_file(const std::filesystem::path& log,
-                                const formats::ReadLogOptions& options) {
+// Of the log file: `known`, where the catalogue has compared it already.
+Result<LoadedDataset> load_file(const LogSource& source, const std::optional<std::string>& known) {
+  const std::filesystem::path& log = source.path;
   LoadedDataset loaded;
-  auto sha256 = sha256_of_file(log);
+  Result<std::string> sha256 = known ? Result<std::string>(*known) : sha256_of_file(log);
   if (!sha256) return tl::make_unexpected(sha256.error());
   loaded.sha256 = std::move(*sha256);
-  auto digest = digest_of(log, loaded.sha256, options);
+  auto digest = digest_of(log, loaded.sha256, source.options);
   if (!digest) return tl::make_unexpected(digest.error());
   loaded.digest = std::move(*digest);
-  auto read = formats::read_log(log, options);
+  auto read = formats::read_log(log, source.options);
   if (!read) return tl::make_unexpected(read.error());
   loaded.log = std::move(*read);
-  loaded.name = loaded.log.provenance.name;
+  loaded.name = loaded.log.provenance.name = source.name;
+  auto& notes = loaded.log.provenance.notes;
+  notes.insert(notes.end(), source.notes.begin(), source.notes.end());
   const auto relations_file = formats::sidecar_of(log, ".relations");
   if (is_file(relations_file)) {
     auto relations = formats::read_relations(relations_file);
@@ -75,6 +81,17 @@ Result<LoadedDataset> load_file(const std::filesystem::path& log,
   const auto world_file = formats::sidecar_of(log, ".truth.toml");
   if (is_file(world_file)) loaded.world_file = world_file;
   return loaded;
+}
+
+Result<std::filesystem::path> folder_of(const CatalogEntry& entry, const DataDirs& dirs) {
+  if (const auto folder = find_folder(entry, dirs)) return *folder;
+  const std::string way = entry.not_fetchable.empty()
+                              ? fmt::format("`corridor-bench data fetch {}` gets it", entry.name)
+                              : entry.not_fetchable + "; source: " + entry.source;
+  return fail(
+      ErrorCode::kNotFound,
+      fmt::format("data set {}: {} not found", entry.name, entry.files.front().path.string()),
+      folders_text(dirs), "the file in one of these folders; " + way);
 }
 
 // Every file of the entry must be there and be the catalogue's; otherwise a result would carry the
@@ -90,7 +107,7 @@ Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
                   fmt::format("data set {}: {} not found", entry.name, file.path.string()),
                   folder.string(), "all files of the data set in one folder");
     }
-    const auto sha256 = sha256_of_file(path);
+    const auto sha256 = checksum_of(path, file);
     if (!sha256) return tl::make_unexpected(sha256.error());
     if (*sha256 == file.sha256) continue;
     if (!accept_other_checksum) {
@@ -104,54 +121,87 @@ Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
   return notes;
 }
 
-Result<LoadedDataset> load_entry(const CatalogEntry& entry, const DataDirs& dirs,
-                                 const LoadOptions& options) {
+Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
+                             const LoadOptions& options) {
+  if (entry.is_graph()) {
+    return fail(ErrorCode::kUnsupported, fmt::format("data set {} is a pose graph", entry.name),
+                "catalogue", "a log: carmen, rawlog, lcm, ticks or rosbag");
+  }
   if (!entry.is_readable()) {
     return fail(ErrorCode::kUnsupported,
                 fmt::format("data set {}: format {} is not readable by this version", entry.name,
                             entry.format),
                 "catalogue", "carmen, rawlog, lcm, ticks or rosbag");
   }
-  const auto folder = find_folder(entry, dirs);
-  if (!folder) {
-    return fail(
-        ErrorCode::kNotFound,
-        fmt::format("data set {}: {} not found", entry.name, entry.files.front().path.string()),
-        folders_text(dirs), "the file in one of these folders; source: " + entry.source);
-  }
+  const auto folder = folder_of(entry, dirs);
+  if (!folder) return tl::make_unexpected(folder.error());
   auto notes = check_files(entry, *folder, options.accept_other_checksum);
   if (!notes) return tl::make_unexpected(notes.error());
-  formats::ReadLogOptions read;
-  read.order = options.order.value_or(entry.order);
+  LogSource source{entry.name, *folder / entry.files.front().path, {}, std::move(*notes)};
+  const bool is_other = !source.notes.empty() && entry.order_of_other_files.has_value();
+  formats::ReadLogOptions& read = source.options;
+  read.order = options.order.value_or(is_other ? *entry.order_of_other_files : entry.order);
   read.no_return_range_m = entry.no_return_range_m;
   read.robot = entry.robot;
   read.raw = entry.raw;
   read.cut_after_s = entry.cut_after_s;
   read.topics = entry.topics;
-  auto loaded = load_file(*folder / entry.files.front().path, read);
-  if (!loaded) return loaded;
-  loaded->name = loaded->log.provenance.name = entry.name;
-  auto& log_notes = loaded->log.provenance.notes;
-  log_notes.insert(log_notes.end(), notes->begin(), notes->end());
-  return loaded;
+  return source;
+}
+
+Result<LogSource> find_path(const std::filesystem::path& path, const Catalog& catalog,
+                            const LoadOptions& options) {
+  if (!is_file(path)) {
+    return fail(ErrorCode::kNotFound,
+                fmt::format("'{}' is neither a data set nor a log file", path.string()), "",
+                "a file, or one of: " + names_text(catalog));
+  }
+  LogSource source{formats::sidecar_of(path, "").filename().string(), path, {}, {}};
+  source.options.order = options.order.value_or(formats::StampOrder::kStamp);
+  return source;
 }
 
 }  // namespace
 
+Result<LogSource> find_log(std::string_view name_or_path, const DataDirs& dirs,
+                           const Catalog& catalog, const LoadOptions& options) {
+  const CatalogEntry* entry = catalog.find(name_or_path);
+  return entry != nullptr ? find_entry(*entry, dirs, options)
+                          : find_path(name_or_path, catalog, options);
+}
+
 Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
                                    const Catalog& catalog, const LoadOptions& options) {
-  if (const CatalogEntry* entry = catalog.find(name_or_path)) {
-    return load_entry(*entry, dirs, options);
+  const auto source = find_log(name_or_path, dirs, catalog, options);
+  if (!source) return tl::make_unexpected(source.error());
+  // A log that may be packed in another way is known by its content.
+  std::optional<std::string> known;
+  const CatalogEntry* entry = catalog.find(name_or_path);
+  if (entry != nullptr && entry->files.front().is_sum_of_content) {
+    auto sum = checksum_of(source->path, entry->files.front());
+    if (!sum) return tl::make_unexpected(sum.error());
+    known = std::move(*sum);
   }
-  const std::filesystem::path path(name_or_path);
-  if (!is_file(path)) {
-    return fail(ErrorCode::kNotFound,
-                fmt::format("'{}' is neither a data set nor a log file", name_or_path), "",
-                "a file, or one of: " + names_text(catalog));
+  auto loaded = load_file(*source, known);
+  if (!loaded || options.keep_lidar_clock) return loaded;
+  loaded->lidar_time_offset_s = formats::move_onto_wheel_clock(
+      loaded->log, loaded->relations ? &*loaded->relations : nullptr);
+  return loaded;
+}
+
+Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataDirs& dirs,
+                                      const Catalog& catalog) {
+  const CatalogEntry* entry = catalog.find(name_or_path);
+  if (entry == nullptr) return formats::read_pose_graph(std::filesystem::path(name_or_path));
+  if (!entry->is_graph()) {
+    return fail(ErrorCode::kUnsupported, fmt::format("data set {} is no pose graph", entry->name),
+                "catalogue", "g2o or toro");
   }
-  formats::ReadLogOptions read;
-  read.order = options.order.value_or(formats::StampOrder::kStamp);
-  return load_file(path, read);
+  const auto folder = folder_of(*entry, dirs);
+  if (!folder) return tl::make_unexpected(folder.error());
+  const auto notes = check_files(*entry, *folder, false);
+  if (!notes) return tl::make_unexpected(notes.error());
+  return formats::read_pose_graph(*folder / entry->files.front().path);
 }
 
 Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,

@@ -109,6 +109,51 @@ Result<void> refuse_defects(const SensorLog& log, const LogLimits& limits) {
   return fail(ErrorCode::kInvalid, found.front() + more, log.provenance.source);
 }
 
+// What is refused besides files that are no log of their format.
+enum class Refusals { kAll, kNone };
+
+// An Error stays one, or becomes a note.
+Result<void> judge(Result<void> outcome, Refusals refusals, std::vector<std::string>& notes) {
+  if (outcome || refusals == Refusals::kAll) return outcome;
+  notes.push_back("kept although refused: " + outcome.error().to_line());
+  return {};
+}
+
+Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions& options,
+                        Refusals refusals) {
+  const auto sidecar = read_sidecar(path);
+  if (!sidecar) return tl::make_unexpected(sidecar.error());
+  auto parsed = parse_log(path, *sidecar, options);
+  if (!parsed) return tl::make_unexpected(parsed.error());
+  LogAsFound found;
+  SensorLog& log = found.log;
+  log.provenance.name = sidecar_of(path, "").filename().string();
+  log.provenance.source = path.string();
+  log.provenance.format = parsed->format;
+  auto& notes = log.provenance.notes;
+  for (const auto& [what, count] : parsed->counts)
+    notes.push_back(fmt::format("{} {}", count, what));
+  notes.insert(notes.end(), parsed->notes.begin(), parsed->notes.end());
+  auto settled = judge(settle_order(*parsed, path.string(), options.order, notes), refusals, notes);
+  if (!settled) return tl::make_unexpected(settled.error());
+  if (options.cut_after_s) cut_after(parsed->events, *options.cut_after_s, notes);
+  auto robot = settle_calibration(*parsed, path, *sidecar, options, notes);
+  if (!robot) return tl::make_unexpected(robot.error());
+  log.robot = std::move(*robot);
+  log.events = std::move(parsed->events);
+  if (parsed->has_wheel_ticks_only) {
+    auto integrated =
+        judge(integrate_wheel_ticks(log.events, log.robot.wheels, path.string()), refusals, notes);
+    if (!integrated) return tl::make_unexpected(integrated.error());
+  }
+  auto attached = judge(attach_truth(path, std::move(parsed->reference), log), refusals, notes);
+  if (!attached) return tl::make_unexpected(attached.error());
+  found.origins = std::move(parsed->origins);
+  found.origins.resize(log.events.size());  // less what lies behind the cut
+  found.origin_unit = parsed->origin_unit;
+  return found;
+}
+
 }  // namespace
 
 std::string_view to_text(LogFormat format) {
@@ -145,38 +190,18 @@ std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_v
   return log.parent_path() / (name + std::string(suffix));
 }
 
+Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,
+                                     const ReadLogOptions& options) {
+  return read(path, options, Refusals::kNone);
+}
+
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options) {
-  const auto sidecar = read_sidecar(path);
-  if (!sidecar) return tl::make_unexpected(sidecar.error());
-  auto parsed = parse_log(path, *sidecar, options);
-  if (!parsed) return tl::make_unexpected(parsed.error());
-  SensorLog log;
-  log.provenance.name = sidecar_of(path, "").filename().string();
-  log.provenance.source = path.string();
-  log.provenance.format = parsed->format;
-  auto& notes = log.provenance.notes;
-  for (const auto& [what, count] : parsed->counts)
-    notes.push_back(fmt::format("{} {}", count, what));
-  notes.insert(notes.end(), parsed->notes.begin(), parsed->notes.end());
-  if (auto settled = settle_order(*parsed, path.string(), options.order, notes); !settled) {
-    return tl::make_unexpected(settled.error());
-  }
-  if (options.cut_after_s) cut_after(parsed->events, *options.cut_after_s, notes);
-  auto robot = settle_calibration(*parsed, path, *sidecar, options, notes);
-  if (!robot) return tl::make_unexpected(robot.error());
-  log.robot = std::move(*robot);
-  log.events = std::move(parsed->events);
-  if (parsed->has_wheel_ticks_only) {
-    auto integrated = integrate_wheel_ticks(log.events, log.robot.wheels, path.string());
-    if (!integrated) return tl::make_unexpected(integrated.error());
-  }
-  if (auto attached = attach_truth(path, std::move(parsed->reference), log); !attached) {
-    return tl::make_unexpected(attached.error());
-  }
-  if (auto sound = refuse_defects(log, options.limits); !sound) {
+  auto found = read(path, options, Refusals::kAll);
+  if (!found) return tl::make_unexpected(found.error());
+  if (auto sound = refuse_defects(found->log, options.limits); !sound) {
     return tl::make_unexpected(sound.error());
   }
-  return log;
+  return std::move(found->log);
 }
 
 Result<void> write_rawlog(const SensorLog& log, const std::filesystem::path& path) {

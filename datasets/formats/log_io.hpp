@@ -4,6 +4,7 @@
 // (datasets/catalog does).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -61,6 +62,19 @@ struct ReadLogOptions {
 // they lie beside it. An LCM log's own poses take the place of truth where there is no LOG.tum;
 // provenance says so.
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options = {});
+
+// A log whatever its readings are like, for those who look for what is wrong with it.
+struct LogAsFound {
+  SensorLog log;  // may break every rule that defects() checks
+  // Where in the file each event stands, and in what this is counted: "line", "byte".
+  std::vector<std::uint64_t> origins;
+  std::string origin_unit;
+};
+
+// As read_log(), but keeps what read_log() refuses for its readings, their stamps or its truth;
+// truth that cannot be read is left out with a note. What is no log of its format stays an Error.
+Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,
+                                     const ReadLogOptions& options = {});
 
 // The suite's own format: the robot model as TOML in the leading comment, then LIDAR, WHEELS and
 // IMU observations, gzip-compressed. Stamps are rounded to 100 ns. Writes no truth.

@@ -76,6 +76,7 @@ const std::vector<Door>& doors() {
       {"kainjow/", {"reports/"}},
       {"librsvg/", {"reports/figures/raster"}},
       {"cairo", {"reports/figures/raster"}},
+      {"curl/", {"datasets/catalog/download"}},
       {"openssl/", {"datasets/catalog/sha256"}},
       {"yaml-cpp/", {"datasets/formats/"}},
       {"png.h", {"datasets/formats/", "reports/"}},

@@ -49,5 +49,44 @@ TEST_F(ScorableDataset, RefusesRelationsOfAnotherClock) {
   EXPECT_TRUE(load().has_value());
 }
 
+// A scenario whose LiDAR clock is off by a stated number gives the data of one whose clock is
+// right.
+TEST(CaseData, OfASimulatedLidarClockThatIsStatedIsOnTheWheelsClock) {
+  const testing::ScratchFolder folder;
+  const auto load = [&folder](const std::string& lidar) {
+    CaseSpec spec;
+    spec.data_source = folder
+                           .write("clock.toml",
+                                  "name = \"clock\"\ndescription = \"a clock\"\n"
+                                  "base = \"paper-corridor\"\n" +
+                                      lidar)
+                           .string();
+    spec.data_seed = 3;
+    return load_case_data(spec, {});
+  };
+  const auto plain = load("");
+  ASSERT_TRUE(plain.has_value()) << plain.error().to_line();
+  const auto moved = load("[lidar]\ntime_offset_s = 0.0307\n");
+  ASSERT_TRUE(moved.has_value()) << moved.error().to_line();
+  EXPECT_EQ(moved->log.robot.lidar.time_offset_s, 0);
+  ASSERT_EQ(moved->log.truth->size(), plain->log.truth->size());
+  for (std::size_t i = 0; i < plain->log.truth->size(); ++i) {
+    EXPECT_EQ((*moved->log.truth)[i].stamp, (*plain->log.truth)[i].stamp);
+  }
+  ASSERT_EQ(moved->log.events.size(), plain->log.events.size());
+  for (std::size_t i = 0; i < plain->log.events.size(); ++i) {
+    ASSERT_EQ(stamp_of(moved->log.events[i]), stamp_of(plain->log.events[i])) << i;
+  }
+  ASSERT_TRUE(plain->simulation_truth->degenerate && moved->simulation_truth->degenerate);
+  const auto& expected = *plain->simulation_truth->degenerate;
+  const auto& found = *moved->simulation_truth->degenerate;
+  ASSERT_EQ(found.size(), expected.size());
+  ASSERT_FALSE(expected.empty());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(found[i].begin_s, expected[i].begin_s);
+    EXPECT_EQ(found[i].end_s, expected[i].end_s);
+  }
+}
+
 }  // namespace
 }  // namespace corridor::runner

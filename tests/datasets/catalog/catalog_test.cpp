@@ -6,50 +6,16 @@
 #include <set>
 
 #include "datasets/catalog/sha256.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/datasets/catalog/catalog_support.hpp"
 
 namespace corridor::catalog {
 namespace {
 
-using testing::ScratchFolder;
-
-constexpr const char* kScans =
-    "FLASER 2 1 2 0 0 0 0 0 0 1.0 h 1.0\nFLASER 2 1 60 0 0 0 0.1 0 0 1.5 h 1.5\n";
-constexpr const char* kRelations = "1.0 1.5 0.1 0 0 0 0 0\n";
-// sha256sum of the two texts above.
-constexpr const char* kScansSha256 =
-    "297417694ae3f01a8913e3f4ee4cfec52ae62be8d05a6aedb4098fb7dc4c9892";
-constexpr const char* kRelationsSha256 =
-    "297f188cfec31a6a215be422a3f615900e18b849adc6ae135db482545148895c";
-
-std::string entry_text(const std::string& more = "", const std::string& name = "tiny") {
-  return "[[dataset]]\nname = \"" + name +
-         "\"\ntitle = \"A tiny log\"\nformat = \"carmen\"\nfiles = [\n"
-         "  { path = \"sub/tiny.clf\", sha256 = \"" +
-         kScansSha256 +
-         "\" },\n"
-         "  { path = \"sub/tiny.relations\", sha256 = \"" +
-         kRelationsSha256 +
-         "\" },\n]\n"
-         "truth = \"relations\"\norder = \"stamp\"\nlicence = \"none stated\"\nsource = "
-         "\"here\"\n" +
-         more;
-}
-
-// A data folder with the tiny log, and its catalogue.
-struct TinyData {
-  TinyData() {
-    folder.write("data/sub/tiny.clf", kScans);
-    folder.write("data/sub/tiny.relations", kRelations);
-    folder.write("catalog.toml", entry_text("no_return_range_m = 50.0\n"
-                                            "calibration.wheels.track_m = 0.33\n"));
-    dirs.folders = {folder / "elsewhere", folder / "data"};
-  }
-  [[nodiscard]] Catalog catalog() const { return *read_catalog(folder / "catalog.toml"); }
-
-  ScratchFolder folder;
-  DataDirs dirs;
-};
+using test::entry_text;
+using test::kScans;
+using test::kScansSha256;
+using test::ScratchFolder;
+using test::TinyData;
 
 TEST(Sha256, IsThatOfTheStandardsExamples) {
   const ScratchFolder folder;
@@ -66,13 +32,41 @@ TEST(Catalog, OfTheSourceTreeIsValidAndHasEveryNameOfTheCommandLine) {
   const auto catalog =
       read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
   ASSERT_TRUE(catalog.has_value()) << catalog.error().to_line();
-  for (const char* name :
-       {"malaga", "intel", "fr079", "aces", "mines", "mbot-empty", "mbot-a0", "corridor-r4.5-s1",
-        "corridor-r4.5-s6", "corridor-r4.5-slip-s7", "corridor-r4.5-vary-s8", "corridor-r12-s1"}) {
+  for (const char* name : {"malaga",
+                           "intel",
+                           "fr079",
+                           "aces",
+                           "mines",
+                           "mbot-empty",
+                           "mbot-a0",
+                           "corridor-r4.5-s1",
+                           "corridor-r4.5-s6",
+                           "corridor-r4.5-slip-s7",
+                           "corridor-r4.5-vary-s8",
+                           "corridor-r12-s1",
+                           "M3500",
+                           "M3500b",
+                           "manhattanOlson3500",
+                           "city10000",
+                           "intel1728",
+                           "intel1228",
+                           "MIT",
+                           "CSAIL",
+                           "FRH"}) {
     EXPECT_NE(catalog->find(name), nullptr) << name;
   }
   EXPECT_EQ(catalog->find("intel")->no_return_range_m, 81.0);
-  for (const CatalogEntry& entry : catalog->entries) EXPECT_TRUE(entry.is_readable()) << entry.name;
+  for (const CatalogEntry& entry : catalog->entries) {
+    EXPECT_NE(entry.is_readable(), entry.is_graph()) << entry.name;
+    for (const DataFile& file : entry.files) {
+      EXPECT_NE(file.url.empty(), entry.not_fetchable.empty()) << entry.name;
+      EXPECT_TRUE(file.url.empty() || file.url.starts_with("https://")) << file.url;
+    }
+  }
+  EXPECT_TRUE(catalog->find("M3500")->is_graph());
+  for (const char* name : {"mines", "mbot-empty", "mbot-a0"}) {
+    EXPECT_TRUE(catalog->find(name)->files.front().is_sum_of_content) << name;
+  }
   EXPECT_EQ(catalog->find("mbot-a0")->raw.clock, formats::RawClock::kEventOffset);
   EXPECT_EQ(catalog->find("mbot-empty")->raw.clock, formats::RawClock::kData);
   EXPECT_EQ(to_text(catalog->find("mbot-empty")->truth), "reference");

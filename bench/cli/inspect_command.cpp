@@ -1,0 +1,76 @@
+#include "bench/cli/inspect_command.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "bench/cli/log_report.hpp"
+#include "bench/runner/exit_code.hpp"
+#include "datasets/formats/log_health.hpp"
+#include "datasets/formats/relations.hpp"
+
+namespace corridor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Relations that cannot be read are a note, as truth that cannot be.
+std::optional<std::size_t> num_relations_of(const fs::path& log, std::vector<std::string>& notes) {
+  const fs::path path = formats::sidecar_of(log, ".relations");
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return std::nullopt;
+  const auto relations = formats::read_relations(path);
+  if (relations) return relations->size();
+  notes.push_back("kept although refused: " + relations.error().to_line());
+  return std::nullopt;
+}
+
+Result<catalog::LogSource> find(const std::string& log, const CommonOptions& common) {
+  std::error_code ignored;
+  if (fs::is_directory(log, ignored)) {
+    return fail(ErrorCode::kInvalid, "this is a folder", log,
+                "a log file, or the name of a data set");
+  }
+  const Result<catalog::Catalog> known = catalog::read_catalog();
+  if (!known) return tl::make_unexpected(known.error());
+  catalog::LoadOptions options;
+  options.accept_other_checksum = true;  // looked at, and said; nothing is scored
+  return catalog::find_log(log, common.data_dirs(), *known, options);
+}
+
+}  // namespace
+
+void InspectCommand::add_to(CLI::App& command) {
+  command.add_option("log", log, "A log file, or the name of a data set")
+      ->required()
+      ->type_name("LOG|NAME");
+  command.add_flag("--json", is_json, "One JSON document, with every defect");
+  common.add_to(command);
+}
+
+Result<ExitCode> InspectCommand::run() const {
+  const Result<catalog::LogSource> source = find(log, common);
+  if (!source) return tl::make_unexpected(source.error());
+  auto found = formats::read_log_as_found(source->path, source->options);
+  if (!found) return tl::make_unexpected(found.error());
+  found->log.provenance.name = source->name;
+  auto& notes = found->log.provenance.notes;
+  notes.insert(notes.end(), source->notes.begin(), source->notes.end());
+
+  const formats::EventPlaces places{std::move(found->origins), found->origin_unit};
+  const formats::LogHealth health = formats::examine(found->log, places);
+  const auto num_relations = num_relations_of(source->path, notes);
+  const LogReport report{&found->log, &health, num_relations};
+  const std::string text =
+      is_json ? to_json(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+              : to_text(report);
+  std::fputs(text.c_str(), stdout);
+  return health.defects.empty() ? runner::kExitDone : runner::kExitNo;
+}
+
+}  // namespace corridor::cli

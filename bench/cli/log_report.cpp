@@ -1,0 +1,218 @@
+#include "bench/cli/log_report.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "bench/cli/command.hpp"
+#include "bench/runner/printable.hpp"
+#include "datasets/formats/robot_toml.hpp"
+
+namespace corridor::cli {
+namespace {
+
+using formats::StampHealth;
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+constexpr std::size_t kMaxDefectsShown = 20;
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json stamps_json(const StampHealth& stamps) {
+  return {{"num_readings", stamps.num_readings},
+          {"first_s", stamps.first_s},
+          {"last_s", stamps.last_s},
+          {"median_rate_hz", stamps.median_rate_hz()},
+          {"longest_gap_s", stamps.longest_gap_s},
+          {"longest_gap_at", text_or_null(stamps.longest_gap_at)},
+          {"num_gaps", stamps.num_gaps},
+          {"num_repeated_stamps", stamps.num_repeats},
+          {"num_stamps_back", stamps.num_back},
+          {"first_bad_stamp_at", text_or_null(stamps.first_bad_at)}};
+}
+
+Json lidar_json(const formats::LidarHealth& lidar) {
+  return {{"min_beams", lidar.min_beams},
+          {"max_beams", lidar.max_beams},
+          {"field_of_view_deg", lidar.field_of_view_rad * kDegreesPerRadian},
+          {"invalid_ratio", lidar.invalid_ratio},
+          {"min_range_m", lidar.min_range_m},
+          {"median_range_m", lidar.median_range_m},
+          {"max_range_m", lidar.max_range_m},
+          {"longest_range_at", text_or_null(lidar.longest_range_at)},
+          {"range_limit_m", lidar.range_limit_m}};
+}
+
+Json wheels_json(const formats::WheelHealth& wheels) {
+  return {{"has_ticks", wheels.has_ticks},
+          {"path_m", wheels.path_m},
+          {"turn_deg", wheels.turn_rad * kDegreesPerRadian},
+          {"max_speed_mps", wheels.max_speed_mps},
+          {"max_speed_at", text_or_null(wheels.max_speed_at)},
+          {"max_yaw_rate_radps", wheels.max_yaw_rate_radps},
+          {"max_yaw_rate_at", text_or_null(wheels.max_yaw_rate_at)},
+          {"num_jumps", wheels.num_jumps}};
+}
+
+Json imu_json(const formats::ImuHealth& imu) {
+  const auto degrees = [](const std::optional<double>& angle_rad) {
+    return angle_rad ? Json(*angle_rad * kDegreesPerRadian) : Json(nullptr);
+  };
+  return {{"max_gyro_radps", imu.max_gyro_radps},
+          {"max_gyro_at", text_or_null(imu.max_gyro_at)},
+          {"median_accel_x_mps2", imu.median_accel_x_mps2},
+          {"median_accel_y_mps2", imu.median_accel_y_mps2},
+          {"gyro_turn_deg", degrees(imu.gyro_turn_rad)},
+          {"wheel_turn_deg", degrees(imu.wheel_turn_rad)}};
+}
+
+Json truth_json(const formats::TruthHealth& truth) {
+  return {{"num_poses", truth.num_poses},
+          {"path_m", truth.path_m},
+          {"scans_with_pose_ratio", truth.scans_with_pose_ratio}};
+}
+
+// Stamps of a sensor and what else is known of it; null for a sensor that the log does not have.
+template <class Health, class ToJson>
+Json sensor_json(const StampHealth& stamps, const std::optional<Health>& health, ToJson to_json) {
+  if (!health) return nullptr;
+  Json json = stamps_json(stamps);
+  json.update(to_json(*health));
+  return json;
+}
+
+Json robot_json(const RobotModel& robot) {
+  std::ostringstream text;
+  text << toml::json_formatter(toml::parse(formats::robot_to_toml(robot)));
+  return Json::parse(text.str());
+}
+
+std::string number_text(double value) { return fmt::format("{:.3f}", value); }
+
+std::string stamp_rows(const formats::LogHealth& health) {
+  std::vector<std::vector<std::string>> rows{{"sensor", "readings", "from [s]", "to [s]",
+                                              "rate [Hz]", "longest gap [s]", "at", "gaps",
+                                              "repeated", "back", "first at"}};
+  const auto add = [&rows](const char* sensor, const StampHealth& stamps) {
+    if (stamps.num_readings == 0) {
+      rows.push_back({sensor, "none"});
+      return;
+    }
+    rows.push_back({sensor, std::to_string(stamps.num_readings), number_text(stamps.first_s),
+                    number_text(stamps.last_s), number_text(stamps.median_rate_hz()),
+                    number_text(stamps.longest_gap_s),
+                    stamps.longest_gap_at.empty() ? "-" : stamps.longest_gap_at,
+                    std::to_string(stamps.num_gaps), std::to_string(stamps.num_repeats),
+                    std::to_string(stamps.num_back),
+                    stamps.first_bad_at.empty() ? "-" : stamps.first_bad_at});
+  };
+  add("LiDAR", health.lidar_stamps);
+  add("wheels", health.wheel_stamps);
+  add("IMU", health.imu_stamps);
+  return text_table(std::move(rows));
+}
+
+std::string sensor_lines(const LogReport& report) {
+  const formats::LogHealth& health = *report.health;
+  std::string text;
+  if (const auto& lidar = health.lidar) {
+    text += fmt::format(
+        "LiDAR: {} beams over {:.1f} deg, {:.1f} % without return, returns at {:.3f} m to {:.3f} "
+        "m, "
+        "median {:.3f} m, limit {:.3f} m\n",
+        lidar->min_beams == lidar->max_beams
+            ? std::to_string(lidar->max_beams)
+            : fmt::format("{} to {}", lidar->min_beams, lidar->max_beams),
+        lidar->field_of_view_rad * kDegreesPerRadian, 100 * lidar->invalid_ratio,
+        lidar->min_range_m, lidar->max_range_m, lidar->median_range_m, lidar->range_limit_m);
+  }
+  if (const auto& wheels = health.wheels) {
+    text += fmt::format(
+        "wheels: {} m, turns of {:.1f} deg in all, at most {:.3f} m/s and {:.3f} rad/s, {} jumps, "
+        "{}\n",
+        number_text(wheels->path_m), wheels->turn_rad * kDegreesPerRadian, wheels->max_speed_mps,
+        wheels->max_yaw_rate_radps, wheels->num_jumps,
+        wheels->has_ticks ? "with ticks" : "poses only");
+  }
+  if (const auto& imu = health.imu) {
+    text += fmt::format("IMU: at most {:.3f} rad/s, median acceleration ({:.3f}, {:.3f}) m/s2",
+                        imu->max_gyro_radps, imu->median_accel_x_mps2, imu->median_accel_y_mps2);
+    if (imu->gyro_turn_rad && imu->wheel_turn_rad) {
+      text += fmt::format(", gyro turns {:.1f} deg where the wheels turn {:.1f} deg",
+                          *imu->gyro_turn_rad * kDegreesPerRadian,
+                          *imu->wheel_turn_rad * kDegreesPerRadian);
+    }
+    text += "\n";
+  }
+  if (const auto& truth = health.truth) {
+    text += fmt::format("truth: {} poses, {:.3f} m, {:.1f} % of the scans have one within 10 ms\n",
+                        truth->num_poses, truth->path_m, 100 * truth->scans_with_pose_ratio);
+  } else {
+    text += "truth: no poses\n";
+  }
+  if (report.num_relations) text += fmt::format("relations: {}\n", *report.num_relations);
+  return text;
+}
+
+// "prefix: line" for each; at most `max_shown`.
+std::string lines_of(const char* prefix, const std::vector<std::string>& lines,
+                     std::size_t max_shown) {
+  std::string text;
+  for (std::size_t i = 0; i < lines.size() && i < max_shown; ++i) {
+    text += fmt::format("{}: {}\n", prefix, runner::printable(lines[i]));
+  }
+  if (lines.size() > max_shown) {
+    text += fmt::format("{}: and {} more, see --json\n", prefix, lines.size() - max_shown);
+  }
+  return text;
+}
+
+}  // namespace
+
+Json to_json(const LogReport& report) {
+  const SensorLog& log = *report.log;
+  const formats::LogHealth& health = *report.health;
+  return {{"name", log.provenance.name},
+          {"source", log.provenance.source},
+          {"format", log.provenance.format},
+          {"is_fit", health.defects.empty()},
+          {"duration_s", health.duration_s},
+          {"lidar", sensor_json(health.lidar_stamps, health.lidar, lidar_json)},
+          {"wheels", sensor_json(health.wheel_stamps, health.wheels, wheels_json)},
+          {"imu", sensor_json(health.imu_stamps, health.imu, imu_json)},
+          {"truth", health.truth ? truth_json(*health.truth) : Json(nullptr)},
+          {"num_relations", report.num_relations ? Json(*report.num_relations) : Json(nullptr)},
+          {"robot_model", robot_json(log.robot)},
+          {"notes", log.provenance.notes},
+          {"suspicions", health.suspicions},
+          {"defects", health.defects}};
+}
+
+std::string to_text(const LogReport& report) {
+  const SensorLog& log = *report.log;
+  const formats::LogHealth& health = *report.health;
+  std::string text = fmt::format("{} ({}, {}), {:.3f} s\n", runner::printable(log.provenance.name),
+                                 log.provenance.format, runner::printable(log.provenance.source),
+                                 health.duration_s);
+  text += stamp_rows(health) + sensor_lines(report);
+  std::istringstream robot(formats::robot_to_toml(log.robot));
+  text += "robot model:\n";
+  for (std::string line; std::getline(robot, line);) {
+    if (!line.empty()) text += "  " + runner::printable(line) + "\n";
+  }
+  const std::size_t all = log.provenance.notes.size() + health.suspicions.size();
+  text += lines_of("note", log.provenance.notes, all);
+  text += lines_of("suspicious", health.suspicions, all);
+  text += lines_of("defect", health.defects, kMaxDefectsShown);
+  text += health.defects.empty() ? fmt::format("fit, {} suspicions\n", health.suspicions.size())
+                                 : fmt::format("not fit, {} defects\n", health.defects.size());
+  return text;
+}
+
+}  // namespace corridor::cli

@@ -1,0 +1,24 @@
+// The report of `data inspect` as JSON and as text. It computes nothing.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "datasets/formats/log_health.hpp"
+#include "slam/core/sensor_log.hpp"
+
+namespace corridor::cli {
+
+struct LogReport {
+  const SensorLog* log = nullptr;
+  const formats::LogHealth* health = nullptr;
+  std::optional<std::size_t> num_relations;
+};
+
+// Every key is always there, null where it does not apply; units are in the names.
+nlohmann::ordered_json to_json(const LogReport& report);
+
+std::string to_text(const LogReport& report);
+
+}  // namespace corridor::cli

@@ -1,0 +1,302 @@
+#include "datasets/formats/log_health.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "datasets/formats/log_suspicions.hpp"
+
+namespace corridor::formats {
+namespace {
+
+constexpr double kGapFactor = 5;
+constexpr double kJumpSlack_m = 0.5;  // as corridor::defects() allows besides the speed
+constexpr double kSpeedWindow_s = 0.2;
+constexpr double kTurnWindow_s = 1;
+// Of a window: on straight ways unequal wheels drift, and there is no turn to compare.
+constexpr double kLeastWindowTurn_rad = 0.05;
+constexpr double kLeastTurn_rad = 0.5;
+constexpr std::int64_t kNearTruth_ns = 10'000'000;
+
+// 0 for nothing; of an even number the upper of the two in the middle.
+template <class T>
+double median_of(std::vector<T> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+// A reading and its index among the events.
+template <class T>
+struct Placed {
+  const T* reading;
+  std::size_t index;
+};
+
+template <class T>
+std::vector<Placed<T>> readings_of(const SensorLog& log) {
+  std::vector<Placed<T>> readings;
+  for (std::size_t i = 0; i < log.events.size(); ++i) {
+    if (const T* reading = std::get_if<T>(&log.events[i])) readings.push_back({reading, i});
+  }
+  return readings;
+}
+
+template <class T>
+StampHealth stamps_of(const std::vector<Placed<T>>& readings, const EventPlaces& places) {
+  StampHealth health;
+  health.num_readings = readings.size();
+  if (readings.empty()) return health;
+  health.first_s = to_seconds(readings.front().reading->stamp);
+  health.last_s = to_seconds(readings.back().reading->stamp);
+  std::vector<double> steps_s;
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    const double step_s =
+        seconds_between(readings[i - 1].reading->stamp, readings[i].reading->stamp);
+    if (step_s > 0) steps_s.push_back(step_s);
+    health.num_repeats += step_s == 0 ? 1 : 0;
+    health.num_back += step_s < 0 ? 1 : 0;
+    if (step_s <= 0 && health.first_bad_at.empty()) {
+      health.first_bad_at = places.of(readings[i].index);
+    }
+    if (step_s > health.longest_gap_s) {
+      health.longest_gap_s = step_s;
+      longest = readings[i].index;
+    }
+  }
+  if (steps_s.empty()) return health;
+  health.longest_gap_at = places.of(longest);
+  health.median_step_s = median_of(steps_s);
+  health.num_gaps = static_cast<std::size_t>(std::count_if(
+      steps_s.begin(), steps_s.end(),
+      [&health](double step_s) { return step_s > kGapFactor * health.median_step_s; }));
+  return health;
+}
+
+LidarHealth lidar_of(const std::vector<Placed<LaserScan>>& scans, const EventPlaces& places) {
+  LidarHealth health;
+  const LaserScan& first = *scans.front().reading;
+  health.min_beams = first.num_beams();
+  health.range_limit_m = first.range_max_m;
+  health.field_of_view_rad = first.num_beams() < 2 ? 0
+                                                   : std::abs(first.angle_increment_rad) *
+                                                         static_cast<double>(first.num_beams() - 1);
+  std::vector<float> valid_m;
+  std::size_t num_beams = 0;
+  for (const auto& [scan, index] : scans) {
+    health.min_beams = std::min(health.min_beams, scan->num_beams());
+    health.max_beams = std::max(health.max_beams, scan->num_beams());
+    num_beams += scan->num_beams();
+    for (std::size_t i = 0; i < std::min(scan->num_beams(), scan->is_valid.size()); ++i) {
+      const float range_m = scan->ranges_m[i];
+      if (scan->is_valid[i] == 0 || !std::isfinite(range_m)) continue;
+      valid_m.push_back(range_m);
+      if (health.longest_range_at.empty() || range_m > health.max_range_m) {
+        health.max_range_m = range_m;
+        health.longest_range_at = places.of(index);
+      }
+    }
+  }
+  if (num_beams == 0) return health;
+  health.invalid_ratio = 1 - static_cast<double>(valid_m.size()) / static_cast<double>(num_beams);
+  if (valid_m.empty()) return health;
+  health.min_range_m = *std::min_element(valid_m.begin(), valid_m.end());
+  health.median_range_m = median_of(std::move(valid_m));
+  return health;
+}
+
+// What wheels do in a while: stamps that nearly coincide say nothing about speed.
+struct WheelWindow {
+  double duration_s = 0;
+  double path_m = 0;
+  double turn_rad = 0;
+};
+
+void take_window(const WheelWindow& window, const std::string& place, WheelHealth& health) {
+  if (window.path_m / window.duration_s > health.max_speed_mps) {
+    health.max_speed_mps = window.path_m / window.duration_s;
+    health.max_speed_at = place;
+  }
+  if (window.turn_rad / window.duration_s > health.max_yaw_rate_radps) {
+    health.max_yaw_rate_radps = window.turn_rad / window.duration_s;
+    health.max_yaw_rate_at = place;
+  }
+}
+
+WheelHealth wheels_of(const std::vector<Placed<WheelSample>>& samples, const LogLimits& limits,
+                      const EventPlaces& places) {
+  WheelHealth health;
+  health.has_ticks = samples.front().reading->ticks.has_value();
+  WheelWindow window;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const WheelSample& last = *samples[i - 1].reading;
+    const WheelSample& sample = *samples[i].reading;
+    if (!last.T_odom_base.is_finite() || !sample.T_odom_base.is_finite()) continue;
+    const Pose2 step = last.T_odom_base.between(sample.T_odom_base);
+    const double length_m = step.translation_m().norm();
+    health.path_m += length_m;
+    health.turn_rad += std::abs(step.theta_rad());
+    const double step_s = seconds_between(last.stamp, sample.stamp);
+    if (step_s <= 0) continue;
+    if (length_m > limits.max_speed_mps * step_s + kJumpSlack_m) ++health.num_jumps;
+    window.duration_s += step_s;
+    window.path_m += length_m;
+    window.turn_rad += std::abs(step.theta_rad());
+    if (window.duration_s < kSpeedWindow_s) continue;
+    take_window(window, places.of(samples[i].index), health);
+    window = {};
+  }
+  return health;
+}
+
+// Turns of wheels and gyro over the same windows.
+struct Turns {
+  double wheels_rad = 0;
+  double gyro_rad = 0;
+};
+
+// The turn between two wheel samples as both sensors have it: the gyro's last reading holds.
+struct TurnStep {
+  double duration_s = 0;
+  double wheels_rad = 0;
+  double gyro_radps = 0;
+  bool is_at_rest = false;
+};
+
+std::vector<TurnStep> turn_steps(const SensorLog& log) {
+  std::vector<TurnStep> steps;
+  const ImuSample* imu = nullptr;
+  const WheelSample* last = nullptr;
+  for (const SensorEvent& event : log.events) {
+    if (const auto* reading = std::get_if<ImuSample>(&event)) {
+      imu = std::isfinite(reading->gyro_z_radps) ? reading : imu;
+    }
+    const auto* sample = std::get_if<WheelSample>(&event);
+    if (sample == nullptr || !sample->T_odom_base.is_finite()) continue;
+    const double duration_s = last == nullptr ? 0 : seconds_between(last->stamp, sample->stamp);
+    if (imu != nullptr && duration_s > 0) {
+      const Pose2 step = last->T_odom_base.between(sample->T_odom_base);
+      steps.push_back({duration_s, step.theta_rad(), imu->gyro_z_radps, step == Pose2()});
+    }
+    last = sample;
+  }
+  return steps;
+}
+
+// Windows, because a short step's turn is mostly noise; counted in the direction of the wheels.
+Turns turns_of(const SensorLog& log) {
+  const std::vector<TurnStep> steps = turn_steps(log);
+  double bias_radps = 0;
+  double rest_s = 0;
+  for (const TurnStep& step : steps) {
+    if (!step.is_at_rest) continue;
+    bias_radps += step.gyro_radps * step.duration_s;
+    rest_s += step.duration_s;
+  }
+  bias_radps = rest_s > 0 ? bias_radps / rest_s : 0;
+  Turns turns;
+  Turns window;
+  double window_s = 0;
+  for (const TurnStep& step : steps) {
+    window.wheels_rad += step.wheels_rad;
+    window.gyro_rad += (step.gyro_radps - bias_radps) * step.duration_s;
+    window_s += step.duration_s;
+    if (window_s < kTurnWindow_s) continue;
+    if (std::abs(window.wheels_rad) >= kLeastWindowTurn_rad) {
+      turns.wheels_rad += std::abs(window.wheels_rad);
+      turns.gyro_rad += window.wheels_rad < 0 ? -window.gyro_rad : window.gyro_rad;
+    }
+    window = {};
+    window_s = 0;
+  }
+  return turns;
+}
+
+ImuHealth imu_of(const SensorLog& log, const std::vector<Placed<ImuSample>>& samples,
+                 const EventPlaces& places) {
+  ImuHealth health;
+  std::vector<double> accel_x_mps2, accel_y_mps2;
+  for (const auto& [sample, index] : samples) {
+    if (std::isfinite(sample->accel_x_mps2)) accel_x_mps2.push_back(sample->accel_x_mps2);
+    if (std::isfinite(sample->accel_y_mps2)) accel_y_mps2.push_back(sample->accel_y_mps2);
+    if (std::abs(sample->gyro_z_radps) > health.max_gyro_radps) {
+      health.max_gyro_radps = std::abs(sample->gyro_z_radps);
+      health.max_gyro_at = places.of(index);
+    }
+  }
+  health.median_accel_x_mps2 = median_of(std::move(accel_x_mps2));
+  health.median_accel_y_mps2 = median_of(std::move(accel_y_mps2));
+  const Turns turns = turns_of(log);
+  if (turns.wheels_rad >= kLeastTurn_rad) {
+    health.wheel_turn_rad = turns.wheels_rad;
+    health.gyro_turn_rad = turns.gyro_rad;
+  }
+  return health;
+}
+
+TruthHealth truth_of(const Trajectory& truth, const std::vector<Placed<LaserScan>>& scans) {
+  TruthHealth health;
+  health.num_poses = truth.size();
+  health.path_m = truth.path_length_m();
+  const auto& poses = truth.poses();
+  std::size_t num_near = 0;
+  for (const auto& [scan, index] : scans) {
+    const std::int64_t stamp_ns = scan->stamp.nanoseconds;
+    const auto next = std::lower_bound(
+        poses.begin(), poses.end(), Timestamp{stamp_ns - kNearTruth_ns},
+        [](const TrajectoryPose& pose, Timestamp stamp) { return pose.stamp < stamp; });
+    const bool is_near = next != poses.end() && next->stamp.nanoseconds <= stamp_ns + kNearTruth_ns;
+    num_near += is_near ? 1 : 0;
+  }
+  if (!scans.empty()) {
+    health.scans_with_pose_ratio =
+        static_cast<double>(num_near) / static_cast<double>(scans.size());
+  }
+  return health;
+}
+
+// "event 5: ..." -> "line 12, event 5: ...".
+std::string with_place(std::string line, const EventPlaces& places) {
+  constexpr std::string_view kEvent = "event ";
+  if (!line.starts_with(kEvent)) return line;
+  std::size_t index = 0;
+  const auto [end, error] =
+      std::from_chars(line.data() + kEvent.size(), line.data() + line.size(), index);
+  if (error != std::errc() || index >= places.origins.size()) return line;
+  return places.of(index) + ", " + line;
+}
+
+}  // namespace
+
+std::string EventPlaces::of(std::size_t event_index) const {
+  return event_index < origins.size() ? fmt::format("{} {}", unit, origins[event_index])
+                                      : fmt::format("event {}", event_index);
+}
+
+LogHealth examine(const SensorLog& log, const EventPlaces& places, const LogLimits& limits,
+                  std::size_t max_defects) {
+  LogHealth health;
+  const auto scans = readings_of<LaserScan>(log);
+  const auto wheels = readings_of<WheelSample>(log);
+  const auto imu = readings_of<ImuSample>(log);
+  health.duration_s = log.duration_s();
+  health.lidar_stamps = stamps_of(scans, places);
+  health.wheel_stamps = stamps_of(wheels, places);
+  health.imu_stamps = stamps_of(imu, places);
+  if (!scans.empty()) health.lidar = lidar_of(scans, places);
+  if (!wheels.empty()) health.wheels = wheels_of(wheels, limits, places);
+  if (!imu.empty()) health.imu = imu_of(log, imu, places);
+  if (log.truth) health.truth = truth_of(*log.truth, scans);
+  for (std::string& line : defects(log, limits, max_defects)) {
+    health.defects.push_back(with_place(std::move(line), places));
+  }
+  health.suspicions = suspicions_of(health, log.robot, limits);
+  return health;
+}
+
+}  // namespace corridor::formats

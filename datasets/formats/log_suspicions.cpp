@@ -1,0 +1,155 @@
+#include "datasets/formats/log_suspicions.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace corridor::formats {
+namespace {
+
+// No sensor of a moving robot is as slow, none of the LiDARs as fast.
+constexpr double kSlowestStep_s = 4;
+constexpr double kFastestScan_s = 2e-3;
+// Ranges of planar LiDARs: farther is centimetres or millimetres, nearer a factor too many.
+constexpr double kFarRange_m = 100;
+constexpr double kFarLimit_m = 1000;
+constexpr double kNearRange_m = 0.1;
+constexpr double kMostlyInvalid_ratio = 0.95;
+// Half of gravity: no robot keeps that up over half a log.
+constexpr double kHalfGravity_mps2 = 4.9;
+// Degrees for radians is a factor of 57.3, give or take slip and bias.
+constexpr double kDegreesFactor_low = 30;
+constexpr double kDegreesFactor_high = 110;
+constexpr double kSameTurn_ratio = 0.3;
+constexpr double kSameRate_factor = 2;
+
+class Suspicions {
+ public:
+  Suspicions(const LogHealth& health, const RobotModel& robot, const LogLimits& limits)
+      : health_(health), robot_(robot), limits_(limits) {}
+
+  std::vector<std::string> run() {
+    suspect_stamps("LiDAR", health_.lidar_stamps);
+    suspect_stamps("wheels", health_.wheel_stamps);
+    suspect_stamps("IMU", health_.imu_stamps);
+    if (health_.lidar) suspect_lidar(*health_.lidar);
+    if (health_.wheels) suspect_wheels(*health_.wheels);
+    if (health_.imu) suspect_imu(*health_.imu);
+    if (health_.truth && health_.truth->scans_with_pose_ratio == 0) {
+      add("truth: no scan has a true pose within 10 ms; another clock, unit or log?");
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(std::string line) { found_.push_back(std::move(line)); }
+
+  void suspect_stamps(const char* sensor, const StampHealth& stamps) {
+    if (stamps.median_step_s > kSlowestStep_s) {
+      add(fmt::format("{}: {:.3f} s between readings; milliseconds for seconds?", sensor,
+                      stamps.median_step_s));
+    }
+    const bool is_lidar = &stamps == &health_.lidar_stamps;
+    if (is_lidar && stamps.median_step_s > 0 && stamps.median_step_s < kFastestScan_s) {
+      add(fmt::format("{}: {:.6f} s between scans; seconds for milliseconds?", sensor,
+                      stamps.median_step_s));
+    }
+  }
+
+  void suspect_lidar(const LidarHealth& lidar) {
+    const double whole_turn_rad = 2 * std::numbers::pi * (1 + 1e-3);
+    if (lidar.field_of_view_rad > whole_turn_rad) {
+      add(fmt::format("LiDAR: a field of view of {:.1f} rad; degrees for radians?",
+                      lidar.field_of_view_rad));
+    }
+    if (lidar.median_range_m > kFarRange_m || lidar.range_limit_m > kFarLimit_m) {
+      add(fmt::format(
+          "LiDAR: ranges of {:.1f} m at the median, up to {:.1f} m ({}), with a limit of "
+          "{:.1f} m; centimetres or millimetres for metres?",
+          lidar.median_range_m, lidar.max_range_m, lidar.longest_range_at, lidar.range_limit_m));
+    }
+    if (lidar.max_range_m > 0 && lidar.max_range_m < kNearRange_m) {
+      add(
+          fmt::format("LiDAR: no range is longer than {:.4f} m; metres taken for centimetres or "
+                      "millimetres?",
+                      lidar.max_range_m));
+    }
+    if (lidar.invalid_ratio > kMostlyInvalid_ratio) {
+      add(fmt::format("LiDAR: {:.1f} % of the beams are without return; a limit in another unit?",
+                      100 * lidar.invalid_ratio));
+    }
+    const double step_s = health_.lidar_stamps.median_step_s;
+    if (step_s > 0 && std::abs(robot_.lidar.scan_duration_s) > kSameRate_factor * step_s) {
+      add(fmt::format("robot model: a sweep of {} s, but a scan every {:.4f} s",
+                      robot_.lidar.scan_duration_s, step_s));
+    }
+  }
+
+  void suspect_wheels(const WheelHealth& wheels) {
+    if (wheels.max_speed_mps > limits_.max_speed_mps) {
+      add(
+          fmt::format("wheels: {:.2f} m/s ({}); centimetres or millimetres for metres, a jump, or "
+                      "stamps in another unit?",
+                      wheels.max_speed_mps, wheels.max_speed_at));
+    }
+    if (wheels.max_yaw_rate_radps > limits_.max_yaw_rate_radps) {
+      add(fmt::format("wheels: a turn at {:.2f} rad/s ({}); degrees for radians?",
+                      wheels.max_yaw_rate_radps, wheels.max_yaw_rate_at));
+    }
+  }
+
+  void suspect_imu(const ImuHealth& imu) {
+    suspect_gravity('x', imu.median_accel_x_mps2);
+    suspect_gravity('y', imu.median_accel_y_mps2);
+    if (imu.max_gyro_radps > limits_.max_yaw_rate_radps) {
+      add(fmt::format("IMU: a turn at {:.2f} rad/s ({}); degrees for radians?", imu.max_gyro_radps,
+                      imu.max_gyro_at));
+    }
+    if (imu.gyro_turn_rad && imu.wheel_turn_rad) {
+      suspect_turns(*imu.gyro_turn_rad, *imu.wheel_turn_rad);
+    }
+    const double rate_hz = health_.imu_stamps.median_rate_hz();
+    if (rate_hz > 0 && (robot_.imu.rate_hz > kSameRate_factor * rate_hz ||
+                        rate_hz > kSameRate_factor * robot_.imu.rate_hz)) {
+      add(fmt::format("robot model: an IMU of {} Hz, but readings at {:.1f} Hz", robot_.imu.rate_hz,
+                      rate_hz));
+    }
+  }
+
+  void suspect_gravity(char axis, double median_mps2) {
+    if (std::abs(median_mps2) < kHalfGravity_mps2) return;
+    add(fmt::format("IMU: {} reads {:.2f} m/s2 at the median; gravity in a horizontal axis?", axis,
+                    median_mps2));
+  }
+
+  void suspect_turns(double gyro_rad, double wheels_rad) {
+    const double ratio = gyro_rad / wheels_rad;
+    const std::string turns =
+        fmt::format("IMU: the gyro turns {:.2f} times as far as the wheels", ratio);
+    const double size = std::abs(ratio);
+    if (size > kDegreesFactor_low && size < kDegreesFactor_high) {
+      add(turns + "; its rates in degrees per second?");
+    } else if (size > 1 / kDegreesFactor_high && size < 1 / kDegreesFactor_low) {
+      add(turns + "; the wheels' headings in degrees?");
+    } else if (ratio < 0) {
+      add(turns + "; an axis that points down, or wheels exchanged?");
+    } else if (std::abs(ratio - 1) > kSameTurn_ratio) {
+      add(turns + "; a scale, the track, or slip?");
+    }
+  }
+
+  const LogHealth& health_;
+  const RobotModel& robot_;
+  const LogLimits& limits_;
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> suspicions_of(const LogHealth& health, const RobotModel& robot,
+                                       const LogLimits& limits) {
+  return Suspicions(health, robot, limits).run();
+}
+
+}  // namespace corridor::formats

@@ -1,0 +1,161 @@
+// The commands about data: fetching from a server of the test's own, and looking at logs.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "datasets/catalog/sha256.hpp"
+#include "tests/bench/cli/program.hpp"
+#include "tests/support/http_server.hpp"
+
+namespace corridor::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLog =
+    "FLASER 4 1 1 1 1 0 0 0 0 0 0 1.0 host 1.0\n"
+    "FLASER 4 1 1 1 90 0.1 0 0 0.1 0 0 1.1 host 1.1\n";
+
+// A catalogue with one log on the server, one nowhere, and the program's surroundings set to it.
+class DataCommand : public ::testing::Test {
+ protected:
+  DataCommand() {
+    fs::create_directory(folder_ / "data");
+    folder_.write("catalog.toml",
+                  entry("here", kLog, "url = \"" + server_.url("/a.clf") + "\"", "") +
+                      entry("made", "x", "", "not_fetchable = \"made here\"\n"));
+  }
+
+  static std::string entry(const std::string& name, const std::string& content,
+                           const std::string& url, const std::string& more) {
+    return "[[dataset]]\nname = \"" + name + "\"\ntitle = \"A log\"\nformat = \"carmen\"\n" +
+           "files = [{ path = \"sub/" + name + ".clf\", sha256 = \"" +
+           catalog::to_hex(catalog::sha256_of(content)) + "\"" + (url.empty() ? "" : ", " + url) +
+           " }]\ntruth = \"none\"\norder = \"stamp\"\nlicence = \"none stated\"\n"
+           "source = \"a test\"\n" +
+           more;
+  }
+
+  [[nodiscard]] Answer run(const std::string& arguments) const {
+    return run_program(folder_, arguments,
+                       "unset CORRIDOR_BENCH_DATA; export CORRIDOR_BENCH_CATALOG='" +
+                           (folder_ / "catalog.toml").string() + "' XDG_CACHE_HOME='" +
+                           (folder_ / "cache").string() + "'; ");
+  }
+
+  ScratchFolder folder_;
+  std::string served_ = kLog;
+  HttpServer server_{
+      [this](const HttpRequest& request) { return HttpServer::serve_content(request, served_); }};
+};
+
+TEST_F(DataCommand, FetchBringsADatasetThatIsThenFoundAndVerified) {
+  EXPECT_EQ(run("data verify here --data-dir data").exit_code, 1);
+  const Answer fetched = run("data fetch here --data-dir data");
+  EXPECT_EQ(fetched.exit_code, 0) << fetched.err << fetched.out;
+  EXPECT_NE(fetched.out.find("fetched"), std::string::npos) << fetched.out;
+  EXPECT_EQ(fetched.out.find('\r'), std::string::npos) << "no progress where nobody looks";
+  EXPECT_EQ(text_of(folder_ / "data/sub/here.clf"), kLog);
+  EXPECT_EQ(run("data verify here --data-dir data").exit_code, 0);
+  const Answer again = run("data fetch here --data-dir data");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("is here"), std::string::npos) << again.out;
+  EXPECT_EQ(server_.requests().size(), 1U);
+}
+
+TEST_F(DataCommand, FetchTakesTheCacheFolderIfNoneIsNamed) {
+  EXPECT_EQ(run("data fetch here").exit_code, 0);
+  EXPECT_EQ(text_of(folder_ / "cache/corridor-bench/sub/here.clf"), kLog);
+  EXPECT_EQ(run("data verify here").exit_code, 0);
+}
+
+TEST_F(DataCommand, FetchOfEverythingLeavesOutWhatNobodyPublishesAndSaysWhy) {
+  const Answer all = run("data fetch --data-dir data");
+  EXPECT_EQ(all.exit_code, 0) << all.err << all.out;
+  EXPECT_NE(all.out.find("made here"), std::string::npos) << all.out;
+  EXPECT_EQ(run("data fetch made --data-dir data").exit_code, 1) << "it was asked for by name";
+}
+
+TEST_F(DataCommand, FetchEndsWithOneIfWhatComesIsSomethingElse) {
+  served_ = "forged";
+  const Answer answer = run("data fetch here --data-dir data");
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_NE(answer.out.find("SHA-256 is"), std::string::npos) << answer.out;
+  EXPECT_EQ(contents_of(folder_ / "data"), std::vector<std::string>{"sub"});
+}
+
+TEST_F(DataCommand, FetchOfAnUnknownNameIsABadRequest) {
+  const Answer answer = run("data fetch nowhere --data-dir data");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+  EXPECT_NE(answer.err.find("no data set 'nowhere'"), std::string::npos) << answer.err;
+  EXPECT_TRUE(server_.requests().empty());
+}
+
+TEST_F(DataCommand, InspectOfADatasetByNameSaysThatItIsFit) {
+  folder_.write("data/sub/here.clf", kLog);
+  const Answer text = run("data inspect here --data-dir data");
+  EXPECT_EQ(text.exit_code, 0) << text.err << text.out;
+  EXPECT_NE(text.out.find("here (carmen, "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("\nfit, 0 suspicions\n"), std::string::npos) << text.out;
+  const Answer json = run("data inspect here --json --data-dir data");
+  const auto report = nlohmann::json::parse(json.out);
+  EXPECT_EQ(report.at("is_fit"), true);
+  EXPECT_EQ(report.at("lidar").at("num_readings"), 2);
+  EXPECT_NEAR(report.at("lidar").at("median_rate_hz").get<double>(), 10, 1e-6);
+  EXPECT_NEAR(report.at("lidar").at("invalid_ratio").get<double>(), 0.125, 1e-12);
+  EXPECT_NEAR(report.at("wheels").at("path_m").get<double>(), 0.1, 1e-12);
+  EXPECT_TRUE(report.at("imu").is_null());
+  EXPECT_TRUE(report.at("truth").is_null());
+  EXPECT_TRUE(report.at("robot_model").at("lidar").contains("range_max_m"));
+}
+
+TEST_F(DataCommand, InspectListsTheDefectsOfALogThatNothingElseTakes) {
+  folder_.write("bad.clf", std::string(kLog) + "FLASER 3 1 1 1 0.1 0 0 0.1 0 0 0.5 host 0.5\n");
+  const Answer text = run("data inspect bad.clf");
+  EXPECT_EQ(text.exit_code, 1) << text.err;
+  EXPECT_NE(text.out.find("defect: line 3, event 4: stamp steps back"), std::string::npos)
+      << text.out;
+  EXPECT_NE(text.out.find("scan of 3 beams"), std::string::npos) << text.out;
+  const Answer json = run("data inspect bad.clf --json");
+  EXPECT_EQ(json.exit_code, 1);
+  const auto report = nlohmann::json::parse(json.out);
+  EXPECT_EQ(report.at("is_fit"), false);
+  EXPECT_EQ(report.at("lidar").at("num_stamps_back"), 1);
+  EXPECT_EQ(report.at("lidar").at("first_bad_stamp_at"), "line 3");
+}
+
+TEST_F(DataCommand, InspectOfWhatIsNoLogIsABadRequest) {
+  folder_.write("garbage.clf", "no log at all\n");
+  for (const std::string what : {"garbage.clf", "nowhere.clf", "data", "made"}) {
+    const Answer answer = run("data inspect " + what);
+    EXPECT_EQ(answer.exit_code, 2) << what;
+    EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+    EXPECT_EQ(answer.out, "") << what;
+  }
+}
+
+TEST_F(DataCommand, ConvertTakesOtherBytesUnderAKnownNameOnlyIfAskedTo) {
+  folder_.write("data/sub/here.clf", std::string(kLog) + "# another version\n");
+  EXPECT_EQ(run("convert here own.clf --data-dir data").exit_code, 2);
+  const Answer asked = run("convert here own.clf --accept-other-checksum --data-dir data");
+  EXPECT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_NE(asked.out.find("accepted on request"), std::string::npos) << asked.out;
+  EXPECT_TRUE(fs::exists(folder_ / "own.clf"));
+}
+
+TEST(Inspect, OfASimulatedLogKnowsItsTruthAndFindsTheGyroInAgreement) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  const Answer answer = run_program(folder, "data inspect a.rawlog --json");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err << answer.out;
+  const auto report = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(report.at("suspicions").size(), 0U) << report.at("suspicions").dump();
+  EXPECT_EQ(report.at("truth").at("scans_with_pose_ratio"), 1.0);
+  EXPECT_NEAR(report.at("truth").at("path_m").get<double>(),
+              report.at("wheels").at("path_m").get<double>(),
+              0.1 * report.at("truth").at("path_m").get<double>());
+}
+
+}  // namespace
+}  // namespace corridor::testing
