@@ -15,6 +15,8 @@
 namespace corridor::catalog {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t kSha256Digits = 64;
 constexpr std::array<std::string_view, 13> kKeys = {
     "name",        "title",       "format",           "files",  "truth",
@@ -75,8 +77,10 @@ class EntryReader {
           sha256->find_first_not_of("0123456789abcdef") != std::string::npos) {
         complain("files", "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
       }
-      const std::filesystem::path relative = *path;
-      if (relative.is_absolute() || *relative.begin() == "..") {
+      const fs::path relative = *path;
+      const bool leads_out =
+          std::find(relative.begin(), relative.end(), fs::path("..")) != relative.end();
+      if (relative.empty() || relative.is_absolute() || leads_out) {
         complain("files", *path + " does not lie in a data folder");
       }
       entry_.files.push_back({relative, *sha256});

@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -82,6 +83,11 @@ void read_table(const toml::table& table, std::string_view section, MissingKeys 
       problems.push_back(
           {node->source().begin.line, fmt::format("{}.{} has another type; expected {}", section,
                                                   info.name, detail::type_name<T>())});
+    } else if constexpr (std::is_same_v<T, double>) {
+      if (std::isfinite(field)) return;
+      problems.push_back(
+          {node->source().begin.line,
+           fmt::format("{}.{} is not finite; expected a number", section, info.name)});
     }
   });
   find_unknown_keys(table, section, known, problems);

@@ -128,6 +128,12 @@ TEST(Corridor, ShapeThatCannotBeDrawnListsEveryRuleBroken) {
   EXPECT_EQ(violations(shape).size(), 5u);
 }
 
+TEST(Corridor, ShapeOfMoreDoorsThanMemoryHoldsIsRefused) {
+  const auto found = violations(CorridorShape{.a_m = 1e300, .b_m = 20'000, .doors_every_m = 1.5});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[1], "world.b_m = 20000: expected more than 0, at most 10000");
+}
+
 TEST(Corridor, ShapeWiderThanItsArmsAreLongIsRefused) {
   EXPECT_EQ(violations(CorridorShape{.a_m = 4, .b_m = 4, .c_m = 5}).size(), 2u);
 }
