@@ -176,27 +176,41 @@ def bag_connection(kind):
 
 
 def xxh32(data):
-    """The checksum of LZ4 frames, for inputs shorter than 16 bytes."""
-    prime2, prime3, prime4, prime5 = 2246822519, 3266489917, 668265263, 374761393
+    """The checksum of LZ4 frames."""
+    prime1, prime2, prime3, prime4, prime5 = (
+        2654435761, 2246822519, 3266489917, 668265263, 374761393)
     mask = 0xFFFFFFFF
-    h = (prime5 + len(data)) & mask
+
+    def rotate(value, bits):
+        return ((value << bits) | (value >> (32 - bits))) & mask
+
     at = 0
+    h = prime5
+    if len(data) >= 16:
+        lanes = [(prime1 + prime2) & mask, prime2, 0, -prime1 & mask]
+        while at + 16 <= len(data):
+            words = struct.unpack_from("<4I", data, at)
+            lanes = [rotate((lane + word * prime2) & mask, 13) * prime1 & mask
+                     for lane, word in zip(lanes, words)]
+            at += 16
+        h = sum(rotate(lane, bits) for lane, bits in zip(lanes, (1, 7, 12, 18)))
+    h = (h + len(data)) & mask
     while at + 4 <= len(data):
-        h = (h + struct.unpack_from("<I", data, at)[0] * prime3) & mask
-        h = (((h << 17) | (h >> 15)) & mask) * prime4 & mask
+        h = rotate((h + struct.unpack_from("<I", data, at)[0] * prime3) & mask, 17) * prime4 & mask
         at += 4
     for byte in data[at:]:
-        h = (h + byte * prime5) & mask
-        h = (((h << 11) | (h >> 21)) & mask) * 2654435761 & mask
+        h = rotate((h + byte * prime5) & mask, 11) * prime1 & mask
     h = (h ^ (h >> 15)) * prime2 & mask
     h = (h ^ (h >> 13)) * prime3 & mask
     return h ^ (h >> 16)
 
 
 def lz4_frame(content):
-    descriptor = b"\x60\x40"  # version 1, independent blocks of at most 64 KiB, no checksums
+    """One block as it stands. rosbag asks for independent blocks and the content's checksum."""
+    descriptor = b"\x64\x40"  # version 1, independent blocks of at most 64 KiB, content's checksum
     frame = struct.pack("<I", 0x184D2204) + descriptor + bytes([(xxh32(descriptor) >> 8) & 0xFF])
-    return frame + struct.pack("<I", 0x80000000 | len(content)) + content + u32(0)
+    return (frame + struct.pack("<I", 0x80000000 | len(content)) + content + u32(0)
+            + u32(xxh32(content)))
 
 
 COMPRESS = {b"none": lambda content: content, b"bz2": bz2.compress, b"lz4": lz4_frame}
