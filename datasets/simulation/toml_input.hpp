@@ -41,7 +41,9 @@ template <class T>
 bool read_value(const toml::node& node, T& value) {
   if constexpr (std::is_same_v<T, double>) {
     if (!node.is_number()) return false;
-    value = *node.value<double>();
+    const auto found = node.value<double>();  // none for an integer that no double holds
+    if (!found) return false;
+    value = *found;
   } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
     const auto found = node.value_exact<T>();
     if (!found) return false;

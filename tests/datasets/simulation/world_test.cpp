@@ -151,6 +151,16 @@ TEST(ReadWorld, ReadsTheTableOfATruthFile) {
   EXPECT_EQ(world->corridor->doors_every_m, 3.4);
 }
 
+TEST(ReadWorld, RefusesAnIntegerThatNoDoubleHolds) {
+  const ScratchFolder folder;
+  const auto world = read_world(folder.write("w.toml",
+                                             "[world]\na_m = 9223372036854775807\nb_m = 21\n"
+                                             "c_m = 5\nalpha_deg = 90\ndoors_every_m = 0\n"));
+  ASSERT_FALSE(world);
+  EXPECT_NE(world.error().to_line().find("w.toml:2: world.a_m has another type"), std::string::npos)
+      << world.error().to_line();
+}
+
 TEST(ReadWorld, NamesTheLineOfAnUnknownKeyAndOfAMissingOne) {
   const ScratchFolder folder;
   const auto path = folder.write("w.toml",
