@@ -99,7 +99,7 @@ TEST_P(FuzzRegressions, ASeedCutAnywhereComesBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzRegressions, ::testing::ValuesIn(kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 TEST(FuzzFolders, EachBelongsToATarget) {
   std::set<std::string> known;
