@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the release and runs every test of it.
 #   tests/run.sh          release build and its tests (20 minutes at most on 2 cores)
-#   tests/run.sh --full   also formatting, and build and tests with AddressSanitizer and
-#                         UndefinedBehaviorSanitizer (40 minutes at most)
+#   tests/run.sh --full   also formatting, build and tests with AddressSanitizer and
+#                         UndefinedBehaviorSanitizer, and two minutes of fuzzing (45 minutes at most)
 # Tests that need recorded data look for it in $CORRIDOR_BENCH_DATA and are skipped, with a message,
 # where it is not. Needs root only while packages are missing.
 set -euo pipefail
@@ -26,6 +26,9 @@ build() {
   cmake --preset "$1" &&
     cmake --build --preset "$1" --parallel "$jobs"
 }
+
+# Seconds of fuzzing, for all targets together.
+fuzz_s=120
 
 # Processor seconds that the tests of one room may take in the release build.
 room_budget_s=60
@@ -81,6 +84,10 @@ for preset in "${presets[@]}"; do
     failed_steps=$((failed_steps + 1))
   fi
 done
+
+if $is_full; then
+  corridor_step "fuzzing" tests/fuzz.sh --total "$fuzz_s" || failed_steps=$((failed_steps + 1))
+fi
 
 corridor_print_steps
 tests=0 failed=0 skipped=0

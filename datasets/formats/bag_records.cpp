@@ -14,6 +14,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "bags are read as they lie in memory");
 
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
+// rosbag writes at most seven; every new one is compared with all before.
+constexpr std::size_t kMaxFields = 64;
 
 template <class T>
 T number_at(std::string_view bytes, std::size_t offset) {
@@ -80,6 +82,10 @@ Result<BagFields> take_bag_fields(const BagBytes& from, std::size_t begin, std::
     if (is_known) {
       return fail(ErrorCode::kMalformed, fmt::format("header field {} twice", quote(name)),
                   from.at(offset), "each field once");
+    }
+    if (fields.size() == kMaxFields) {
+      return fail(ErrorCode::kResourceLimit, "too many header fields", from.at(offset),
+                  fmt::format("at most {}", kMaxFields));
     }
     fields.emplace_back(name, field.substr(equals + 1));
     offset += sizeof(std::uint32_t) + *length;

@@ -37,8 +37,8 @@ struct BagRecord {
   std::string where;    // of the record, for messages
 };
 
-// An Error names the byte: a length that leads beyond the end, a header beyond its cap, a field
-// without '=', a field given twice, no field "op".
+// An Error names the byte: a length that leads beyond the end, a header beyond its cap, too many
+// fields, a field without '=', a field given twice, no field "op".
 Result<BagRecord> take_bag_record(const BagBytes& from, std::size_t offset);
 
 // The fields of a header, or of a connection's data, which has the same form.

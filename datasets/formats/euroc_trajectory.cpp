@@ -52,8 +52,9 @@ Result<ReadTrajectory> parse_euroc(std::string_view text, const std::string& nam
                   "8 (or 17): 'ns,tx,ty,tz,qw,qx,qy,qz'");
     }
     const auto stamp_ns = parse_integer(fields[0]);
-    if (!stamp_ns) {
-      return fail(ErrorCode::kMalformed, "stamp " + quote(fields[0]), where, "whole nanoseconds");
+    if (!stamp_ns || *stamp_ns < -kMaxStamp_ns || *stamp_ns > kMaxStamp_ns) {
+      return fail(ErrorCode::kMalformed, "stamp " + quote(fields[0]), where,
+                  fmt::format("whole nanoseconds, at most {}", kMaxStamp_ns));
     }
     std::array<double, kNumGroundTruthFields - 1> numbers{};
     if (auto good = parse_finite(std::span(fields).subspan(1), where, numbers); !good) {

@@ -23,6 +23,9 @@ constexpr std::int64_t kMaxClockDifference_us = 1'000'000;
 constexpr double kMaxDrift_ratio = 0.01;
 // At rest on a level floor z reads 1 g; beyond this the unit or the axis is another.
 constexpr double kMaxGravityError_ratio = 0.2;
+// A turning LiDAR takes a good part of its turn's beams in each sweep; a scan of a hundred times as
+// many directions as beams is a corrupted angle, and memory.
+constexpr std::size_t kMaxDirectionsPerBeam = 100;
 // Reference poses are of scans: a pose farther outside the scans has a broken stamp.
 constexpr std::int64_t kMaxOutside_us = 1'000'000;
 
@@ -40,6 +43,14 @@ std::int64_t median_delay_us(const std::vector<Received<T>>& list) {
   for (const auto& received : list) delays_us.push_back(received.utime_us - stamp_us(received));
   const auto middle = delays_us.begin() + static_cast<std::ptrdiff_t>(delays_us.size() / 2);
   std::nth_element(delays_us.begin(), middle, delays_us.end());
+  return *middle;
+}
+
+std::size_t median_num_beams(const std::vector<Sweep>& sweeps) {
+  std::vector<std::size_t> counts;
+  for (const Sweep& sweep : sweeps) counts.push_back(sweep.ranges_m.size());
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
   return *middle;
 }
 
@@ -169,7 +180,9 @@ class LcmAssembler {
     std::vector<Sweep> sweeps;
     for (const auto& received : in_.sweeps) sweeps.push_back(received.message);
     const FanShape shape = fan_shape(sweeps, options_.raw.is_lidar_clockwise);
-    if (shape.num_beams < 2 || shape.num_beams > kMaxBeams) {
+    const std::size_t max_beams =
+        std::min(kMaxBeams, kMaxDirectionsPerBeam * median_num_beams(sweeps));
+    if (shape.num_beams < 2 || shape.num_beams > max_beams) {
       return failure(in_.sweeps.front().begin, "the beams' angles tell no step", "a turning LiDAR");
     }
     const double range_max_m = options_.robot.lidar.range_max_m;

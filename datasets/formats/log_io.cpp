@@ -75,10 +75,11 @@ Result<RobotModel> settle_calibration(ParsedLog& parsed, const std::filesystem::
 // What lies beyond the cut is the end of the log: its order is settled.
 void cut_after(std::vector<SensorEvent>& events, double cut_after_s,
                std::vector<std::string>& notes) {
-  if (events.empty()) return;
-  const Timestamp end = add_seconds(stamp_of(events.front()), cut_after_s);
   const std::size_t num_before = events.size();
-  while (stamp_of(events.back()) > end) events.pop_back();
+  while (events.size() > 1 &&
+         seconds_between(stamp_of(events.front()), stamp_of(events.back())) > cut_after_s) {
+    events.pop_back();
+  }
   notes.push_back(fmt::format("{} readings later than {} s after the first left out",
                               num_before - events.size(), cut_after_s));
 }

@@ -19,6 +19,7 @@ constexpr std::size_t kMaxNameLength = 120;    // MRPT's own limit
 constexpr std::uint32_t kMaxLabelBytes = 256;
 constexpr std::uint32_t kMaxCommentBytes = 1u << 20;
 constexpr std::uint32_t kMaxObjectsInFrame = 1024;
+constexpr std::uint32_t kMaxActions = 16;  // of one collection, which MRPT holds with its samples
 constexpr std::uint32_t kMaxMatrixSide = 16;
 constexpr std::uint32_t kMaxMotionSamples = 100'000;  // MRPT draws that many while it reads
 constexpr std::size_t kNumImuValues = 31;             // COUNT_IMU_DATA_FIELDS of MRPT 2.5
@@ -203,18 +204,18 @@ class RawlogGrammar {
     label();
   }
 
-  void objects(std::string_view parent) {
-    const std::uint32_t n = w_.take_count(kMaxObjectsInFrame, "number of objects");
+  void objects(std::string_view parent, std::uint32_t max) {
+    const std::uint32_t n = w_.take_count(max, "number of objects");
     for (std::uint32_t i = 0; i < n && !w_.has_failed(); ++i) object(parent);
   }
 
   void sensory_frame(std::uint8_t version) {
     if (version < 2) w_.skip(4, "a sensory frame's number");
     if (version == 0) w_.skip(kStampBytes, "a stamp");
-    objects("CSensoryFrame");
+    objects("CSensoryFrame", kMaxObjectsInFrame);
   }
 
-  void actions(std::uint8_t) { objects("CActionCollection"); }
+  void actions(std::uint8_t) { objects("CActionCollection", kMaxActions); }
 
   void movement(std::uint8_t version) {
     const std::size_t begin = w_.offset();

@@ -18,14 +18,14 @@
 
 #include "datasets/formats/rawlog.hpp"
 #include "datasets/formats/rawlog_framing.hpp"
+#include "datasets/formats/text.hpp"
 
 namespace corridor::formats {
 namespace {
 
 // 1601-01-01 to 1970-01-01 in ticks of 100 ns.
 constexpr std::int64_t kUnixEpoch_ticks = 116'444'736'000'000'000;
-constexpr std::int64_t kMaxTicks =
-    90'000'000'000'000'000;  // from the Unix epoch; fits 64 bits of ns
+constexpr std::int64_t kMaxTicks = kMaxStamp_ns / kRawlogTick_ns;  // from the Unix epoch
 constexpr double kMaxTilt_rad = 1e-3;
 constexpr double kFullTurn_rad = 2 * std::numbers::pi;
 constexpr double kApertureRounding_rad = 1e-3;
@@ -65,7 +65,7 @@ class RawlogParser {
     const std::int64_t count = time.time_since_epoch().count();
     if (count < kUnixEpoch_ticks - kMaxTicks || count > kUnixEpoch_ticks + kMaxTicks) {
       return failure(ErrorCode::kInvalid, fmt::format("stamp of {} ticks since 1601", count),
-                     "a time within 280 years of 1970");
+                     "a time within 145 years of 1970");
     }
     return Timestamp{(count - kUnixEpoch_ticks) * kRawlogTick_ns};
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 
 namespace corridor::formats {
 namespace {
@@ -78,9 +77,7 @@ std::optional<Timestamp> parse_stamp(std::string_view field) {
   const std::string_view fraction = point < field.size() ? field.substr(point + 1) : "";
   if (whole.empty() || !is_all_digits(whole) || !is_all_digits(fraction)) return std::nullopt;
   const auto seconds = parse_integer(whole);
-  if (!seconds || *seconds >= std::numeric_limits<std::int64_t>::max() / kNanoseconds) {
-    return std::nullopt;
-  }
+  if (!seconds || *seconds >= kMaxStamp_ns / kNanoseconds) return std::nullopt;
   const std::int64_t nanoseconds = *seconds * kNanoseconds + fraction_ns(fraction);
   return Timestamp{is_negative ? -nanoseconds : nanoseconds};
 }

@@ -26,9 +26,12 @@ std::optional<std::string_view> take_line(std::string_view& text);
 std::optional<double> parse_double(std::string_view field);
 std::optional<std::int64_t> parse_integer(std::string_view field);
 
+// From 1824 to 2115: the time between two stamps fits 64 bits of nanoseconds.
+inline constexpr std::int64_t kMaxStamp_ns = 4'600'000'000'000'000'000;
+
 // Decimal seconds to integer nanoseconds without passing through double: Unix times keep their last
-// digit. Digits beyond the ninth decimal are rounded. nullopt if not a plain decimal or out of
-// range.
+// digit. Digits beyond the ninth decimal are rounded. nullopt if not a plain decimal or beyond
+// kMaxStamp_ns.
 std::optional<Timestamp> parse_stamp(std::string_view field);
 
 // "12.345000000": the inverse of parse_stamp.

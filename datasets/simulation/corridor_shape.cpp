@@ -13,6 +13,8 @@ using Eigen::Vector2d;
 
 constexpr double kMinAlpha_rad = std::numbers::pi / 6;
 constexpr double kMaxAlpha_rad = 5 * std::numbers::pi / 6;
+// With doors every metre and a half, a longer corridor is more walls than memory holds.
+constexpr double kLargest_m = 1e4;
 // Recesses keep this far from the ends of their wall, so that two of them never meet at a corner.
 constexpr double kDoorMargin_m = 0.5;
 
@@ -52,8 +54,9 @@ void append_wall(const Segment& wall, double first_m, double every_m, std::vecto
 std::vector<std::string> violations(const CorridorShape& shape) {
   std::vector<std::string> found;
   const auto check_positive = [&](const char* key, double value) {
-    if (!(std::isfinite(value) && value > 0)) {
-      found.push_back(fmt::format("world.{} = {}: expected a finite number > 0", key, value));
+    if (!(value > 0 && value <= kLargest_m)) {
+      found.push_back(
+          fmt::format("world.{} = {}: expected more than 0, at most {}", key, value, kLargest_m));
     }
   };
   check_positive("a_m", shape.a_m);

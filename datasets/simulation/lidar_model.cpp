@@ -21,10 +21,6 @@ Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_ra
 
 }  // namespace
 
-Pose2 T_base_lidar(const LidarParams& params) {
-  return {params.x_m, params.y_m, params.yaw_deg * kRadPerDeg};
-}
-
 double beam_angle_rad(const LidarParams& params, int beam_index) {
   const double field_rad = params.field_of_view_deg * kRadPerDeg;
   const double increment_rad = field_rad / params.num_beams;

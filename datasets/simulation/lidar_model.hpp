@@ -62,8 +62,6 @@ class LidarModel {
   LidarParams params_;
 };
 
-// Nominal mounting.
-Pose2 T_base_lidar(const LidarParams& params);
 // Angle of a beam in the LiDAR's frame.
 double beam_angle_rad(const LidarParams& params, int beam_index);
 

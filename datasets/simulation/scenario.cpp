@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/simulation/lidar_model.hpp"
 #include "datasets/simulation/scenario_sections.hpp"
 
 namespace corridor::simulation {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace corridor::simulation {
 
@@ -17,6 +18,10 @@ std::vector<std::string> LidarParams::relations() const {
                                 scan_duration_s, 1 / rate_hz));
   }
   return found;
+}
+
+Pose2 T_base_lidar(const LidarParams& params) {
+  return {params.x_m, params.y_m, params.yaw_deg * (std::numbers::pi / 180)};
 }
 
 // A reading is the mean over its sampling interval: N / sqrt(interval).

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/core/params.hpp"
+#include "slam/core/pose2.hpp"
 
 namespace corridor::simulation {
 
@@ -90,6 +91,9 @@ struct LidarParams {
   }
   std::vector<std::string> relations() const;
 };
+
+// Nominal mounting.
+Pose2 T_base_lidar(const LidarParams& params);
 
 // Wheel encoders. recorded path = true path of the turning wheel x scale x (1 + white noise), in
 // ticks. left scale = 1 + e + u, right scale = 1 + e - u, and the true track is

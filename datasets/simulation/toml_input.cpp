@@ -4,17 +4,26 @@
 
 #include <algorithm>
 
+#include "datasets/formats/file_bytes.hpp"
 #include "slam/core/expect.hpp"
 
 namespace corridor::simulation {
+namespace {
+
+// A drawing of a hundred thousand walls has half of it.
+constexpr std::size_t kMaxTomlBytes = std::size_t{1} << 24;
+
+}  // namespace
 
 Result<toml::table> parse_toml(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     return fail(ErrorCode::kNotFound, "no such file", path.string(), "a TOML file");
   }
+  const Result<std::string> text = formats::read_file_bytes(path, kMaxTomlBytes);
+  if (!text) return tl::make_unexpected(text.error());
   try {
-    return toml::parse_file(path.string());
+    return toml::parse(std::string_view(*text));
   } catch (const toml::parse_error& parse_error) {
     return fail(ErrorCode::kMalformed, std::string(parse_error.description()),
                 fmt::format("{}:{}", path.string(), parse_error.source().begin.line), "TOML");

@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -40,7 +41,9 @@ template <class T>
 bool read_value(const toml::node& node, T& value) {
   if constexpr (std::is_same_v<T, double>) {
     if (!node.is_number()) return false;
-    value = *node.value<double>();
+    const auto found = node.value<double>();  // none for an integer that no double holds
+    if (!found) return false;
+    value = *found;
   } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
     const auto found = node.value_exact<T>();
     if (!found) return false;
@@ -82,6 +85,11 @@ void read_table(const toml::table& table, std::string_view section, MissingKeys 
       problems.push_back(
           {node->source().begin.line, fmt::format("{}.{} has another type; expected {}", section,
                                                   info.name, detail::type_name<T>())});
+    } else if constexpr (std::is_same_v<T, double>) {
+      if (std::isfinite(field)) return;
+      problems.push_back(
+          {node->source().begin.line,
+           fmt::format("{}.{} is not finite; expected a number", section, info.name)});
     }
   });
   find_unknown_keys(table, section, known, problems);

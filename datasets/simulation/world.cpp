@@ -18,8 +18,11 @@ using Eigen::Vector2d;
 constexpr double kLargest_m = 1e5;
 constexpr double kShortest_m = 1e-3;
 constexpr double kArcPiece_rad = std::numbers::pi / 36;
-// The route is tried this densely.
+// The route is tried this densely; a longer one would be tried for hours.
 constexpr double kRouteStep_m = 0.05;
+constexpr double kLongestRoute_m = 1e4;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 bool is_sane(const Vector2d& point_m) {
   return point_m.allFinite() && point_m.lpNorm<Eigen::Infinity>() <= kLargest_m;
@@ -54,7 +57,8 @@ void check_materials(const World& world, std::vector<std::string>& found) {
   std::set<std::string> names;
   for (const Material& material : world.materials) {
     // Surfaces name their material, and the name is written into quotes.
-    if (material.name.empty() || material.name.find_first_of("\"\\\n\r\t") != std::string::npos ||
+    if (material.name.empty() || material.name.find_first_of("\"\\") != std::string::npos ||
+        std::any_of(material.name.begin(), material.name.end(), is_control) ||
         !names.insert(material.name).second) {
       found.push_back(
           fmt::format("world: material \"{}\"; expected a name that no other has, without quotes",
@@ -81,6 +85,7 @@ double clearance_of(const World& world, const Vector2d& point_m) {
 }
 
 void check_route(const World& world, double clearance_m, std::vector<std::string>& found) {
+  double length_m = 0;
   for (std::size_t i = 0; i + 1 < world.route_m.size(); ++i) {
     const Vector2d leg_m = world.route_m[i + 1] - world.route_m[i];
     if (!is_sane(world.route_m[i]) || !is_sane(world.route_m[i + 1])) {
@@ -88,12 +93,22 @@ void check_route(const World& world, double clearance_m, std::vector<std::string
                                   i + 1, kLargest_m));
       return;
     }
+    length_m += leg_m.norm();
+    if (length_m > kLongestRoute_m) {
+      found.push_back(fmt::format("world: a route of more than {} m", kLongestRoute_m));
+      return;
+    }
     const int num_steps = static_cast<int>(std::ceil(leg_m.norm() / kRouteStep_m));
-    for (int k = 0; k <= num_steps; ++k) {
+    for (int k = 0; k <= num_steps;) {
       const Vector2d point_m =
           world.route_m[i] + leg_m * (num_steps == 0 ? 0 : static_cast<double>(k) / num_steps);
       const double room_m = clearance_of(world, point_m);
-      if (room_m >= clearance_m) continue;
+      if (room_m >= clearance_m) {
+        // No wall comes nearer by more than the way to the next point that is tried.
+        const double spare_m = std::min(room_m - clearance_m, leg_m.norm());
+        k += std::max(1, static_cast<int>(spare_m / kRouteStep_m));
+        continue;
+      }
       found.push_back(
           fmt::format("world: the route passes ({:.3g}, {:.3g}) at {:.3g} m from a wall; expected "
                       "at least {} m",

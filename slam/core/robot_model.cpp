@@ -7,6 +7,9 @@
 namespace corridor {
 namespace {
 
+// Longer is another unit; much longer leads out of what stamps hold.
+constexpr double kMaxOffset_s = 1000;
+
 struct Checker {
   std::vector<std::string> found;
 
@@ -18,6 +21,12 @@ struct Checker {
   void not_negative(const char* key, double value) {
     if (!(std::isfinite(value) && value >= 0)) {
       found.push_back(fmt::format("{} = {}: expected a finite number >= 0", key, value));
+    }
+  }
+  // Either way; not a number fails too.
+  void within(const char* key, double value, double limit) {
+    if (!(std::abs(value) <= limit)) {
+      found.push_back(fmt::format("{} = {}: expected at most {} either way", key, value, limit));
     }
   }
   void finite(const char* key, bool is_finite) {
@@ -41,8 +50,8 @@ std::vector<std::string> violations(const RobotModel& robot) {
                                       robot.lidar.range_min_m, robot.lidar.range_max_m));
   }
   check.not_negative("lidar.range_sigma_m", robot.lidar.range_sigma_m);
-  check.finite("lidar.scan_duration_s", std::isfinite(robot.lidar.scan_duration_s));
-  check.finite("lidar.time_offset_s", std::isfinite(robot.lidar.time_offset_s));
+  check.within("lidar.scan_duration_s", robot.lidar.scan_duration_s, kMaxOffset_s);
+  check.within("lidar.time_offset_s", robot.lidar.time_offset_s, kMaxOffset_s);
   check.finite("imu pose", robot.imu.T_base_imu.is_finite());
   check.positive("imu.rate_hz", robot.imu.rate_hz);
   check.not_negative("imu.gyro_noise_radps", robot.imu.gyro_noise_radps);

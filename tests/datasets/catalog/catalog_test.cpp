@@ -97,10 +97,12 @@ TEST(Catalog, ListsEveryViolationAtOnce) {
 
 TEST(Catalog, RefusesFilesOutsideTheDataFolder) {
   const ScratchFolder folder;
-  std::string text = entry_text();
-  text.replace(text.find("sub/tiny.clf"), 12, "../tiny.clf");
-  folder.write("catalog.toml", text);
-  EXPECT_FALSE(read_catalog(folder / "catalog.toml").has_value());
+  for (const char* path : {"../tiny.clf", "sub/../../tiny.clf", "/tiny.clf", ""}) {
+    std::string text = entry_text();
+    text.replace(text.find("sub/tiny.clf"), 12, path);
+    folder.write("catalog.toml", text);
+    EXPECT_FALSE(read_catalog(folder / "catalog.toml").has_value()) << path;
+  }
   EXPECT_EQ(read_catalog(folder / "none.toml").error().code, ErrorCode::kNotFound);
   folder.write("catalog.toml", "[[dataset]\n");
   EXPECT_NE(read_catalog(folder / "catalog.toml").error().to_line().find("catalog.toml:1"),

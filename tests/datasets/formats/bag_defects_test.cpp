@@ -115,6 +115,20 @@ TEST(BagFraming, RefusesFieldsThatAreNone) {
   expect_framing_refused(with_field<char>(bytes, "op=", 9), "record of kind 9");
 }
 
+TEST(BagFraming, RefusesHeadersOfMoreFieldsThanAnyone) {
+  const std::string bytes = bag_bytes(small_bag());
+  std::string fields;
+  for (int i = 100; i < 200; ++i) fields += std::string("\4\0\0\0", 4) + std::to_string(i) + "=";
+  const std::size_t header = std::string_view("#ROSBAG V2.0\n").size();
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + header, sizeof(length));
+  std::string many = bytes;
+  many.insert(header + sizeof(length) + length, fields);
+  length += static_cast<std::uint32_t>(fields.size());
+  std::memcpy(many.data() + header, &length, sizeof(length));
+  expect_framing_refused(many, "too many header fields");
+}
+
 TEST(BagFraming, RefusesUnknownCompressions) {
   expect_framing_refused(with_all(bag_bytes(small_bag()), "compression=none", "compression=zstd"),
                          "compression 'zstd'");

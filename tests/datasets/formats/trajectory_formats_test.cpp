@@ -159,6 +159,7 @@ TEST(Euroc, AnswersEachDefectWithItsLine) {
       {"999999999,0,0,0,1,0,0,0", "not later"},
       {"2.5,0,0,0,1,0,0,0", "stamp '2.5'"},
       {"99999999999999999999,0,0,0,1,0,0,0", "stamp '99999999999999999999'"},
+      {"4600000000000000001,0,0,0,1,0,0,0", "stamp '4600000000000000001'"},
   };
   for (const Defect& defect : defects) {
     expect_refused(parse_euroc("1000000000,0,0,0,1,0,0,0\n" + defect.line + "\n", "t.csv"),

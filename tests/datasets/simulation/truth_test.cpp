@@ -71,6 +71,21 @@ TEST(Truth, NamesUnknownKeysMissingTablesAndBadListsWithTheirLines) {
   EXPECT_NE(error.find("no table [start]"), std::string::npos) << error;
 }
 
+TEST(Truth, RefusesNumbersThatAreNotFinite) {
+  const ScratchFolder folder;
+  for (const std::string number : {"nan", "inf", "-inf"}) {
+    for (const char* key : {"x_m = 2.380100", "begin_s = 15.195", "range_max_m = 4.5"}) {
+      std::string text = kForeignTruth;
+      const std::string name(key, std::string_view(key).find(' '));
+      text.replace(text.find(key), std::string_view(key).size(), name + " = " + number);
+      const auto truth = read_truth(folder.write("log.truth.toml", text));
+      ASSERT_FALSE(truth) << text;
+      EXPECT_NE(truth.error().to_line().find(name + " is not finite"), std::string::npos)
+          << truth.error().to_line();
+    }
+  }
+}
+
 TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
   const ScratchFolder folder;
   Scenario scenario = shipped_scenario("paper-corridor-real");

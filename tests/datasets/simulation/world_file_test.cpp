@@ -150,8 +150,9 @@ TEST(DrawnWorld, RefusesSurfacesWithoutLengthAndMaterialsOutOfRange) {
 // Surfaces name their material, so that two of one name could not be told apart when read again.
 TEST(DrawnWorld, RefusesMaterialsWhoseNamesCannotBeReadBack) {
   const std::string arc = "arcs = [{ centre_m = [0, 0], radius_m = 1 }]\n";
-  for (const std::string names : {"{ name = \"a\" }, { name = \"a\" }", "{ name = \"\" }",
-                                  "{ name = 'say \"a\"' }", "{ name = 'a\\b' }"}) {
+  for (const std::string names :
+       {"{ name = \"a\" }, { name = \"a\" }", "{ name = \"\" }", "{ name = 'say \"a\"' }",
+        "{ name = 'a\\b' }", "{ name = \"a\\u0001\" }"}) {
     EXPECT_TRUE(contains(error_of("[world]\nmaterials = [" + names + "]\n" + arc),
                          "expected a name that no other has"))
         << names;
@@ -167,6 +168,21 @@ TEST(DrawnWorld, RouteMustKeepClearOfEveryWall) {
   world.arcs.clear();
   EXPECT_TRUE(violations(world, 0.99).empty());
   EXPECT_FALSE(violations(world, 1.01).empty());
+}
+
+TEST(DrawnWorld, TheFirstPointOfTheRouteThatIsTooNearIsNamedHoweverFarTheWay) {
+  World world = world_of({{{0, 1}, {0.1, 1}}, {{999.95, 0.3}, {999.95, 1}}});
+  world.route_m = {{-1000, 0}, {2000, 0}};
+  const auto found = violations(world, 0.5);
+  ASSERT_EQ(found.size(), 1u);
+  // sqrt(0.5^2 - 0.3^2) = 0.4 m before the wall.
+  EXPECT_TRUE(contains(found.front(), "the route passes (1e+03, 0) at 0.")) << found.front();
+}
+
+TEST(DrawnWorld, RefusesARouteThatIsLongerThanAnyDrive) {
+  World world = world_of({{{0, 1}, {10, 1}}});
+  world.route_m = {{0, -90'000}, {0, -1}};
+  EXPECT_TRUE(contains(violations(world, 0.5).at(0), "route of more than 10000 m"));
 }
 
 }  // namespace

@@ -128,6 +128,12 @@ TEST(Corridor, ShapeThatCannotBeDrawnListsEveryRuleBroken) {
   EXPECT_EQ(violations(shape).size(), 5u);
 }
 
+TEST(Corridor, ShapeOfMoreDoorsThanMemoryHoldsIsRefused) {
+  const auto found = violations(CorridorShape{.a_m = 1e300, .b_m = 20'000, .doors_every_m = 1.5});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[1], "world.b_m = 20000: expected more than 0, at most 10000");
+}
+
 TEST(Corridor, ShapeWiderThanItsArmsAreLongIsRefused) {
   EXPECT_EQ(violations(CorridorShape{.a_m = 4, .b_m = 4, .c_m = 5}).size(), 2u);
 }
@@ -143,6 +149,16 @@ TEST(ReadWorld, ReadsTheTableOfATruthFile) {
   EXPECT_EQ(world->corridor->b_m, 21);
   EXPECT_NEAR(world->corridor->alpha_rad, 80 * std::numbers::pi / 180, 1e-15);
   EXPECT_EQ(world->corridor->doors_every_m, 3.4);
+}
+
+TEST(ReadWorld, RefusesAnIntegerThatNoDoubleHolds) {
+  const ScratchFolder folder;
+  const auto world = read_world(folder.write("w.toml",
+                                             "[world]\na_m = 9223372036854775807\nb_m = 21\n"
+                                             "c_m = 5\nalpha_deg = 90\ndoors_every_m = 0\n"));
+  ASSERT_FALSE(world);
+  EXPECT_NE(world.error().to_line().find("w.toml:2: world.a_m has another type"), std::string::npos)
+      << world.error().to_line();
 }
 
 TEST(ReadWorld, NamesTheLineOfAnUnknownKeyAndOfAMissingOne) {

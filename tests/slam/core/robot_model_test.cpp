@@ -30,6 +30,15 @@ TEST(RobotModel, EveryBrokenRuleIsNamed) {
   EXPECT_EQ(violations(robot).size(), 16u);
 }
 
+TEST(RobotModel, OffsetsOfTimeAreThoseOfSensorsNotOfCalendars) {
+  RobotModel robot;
+  robot.lidar.scan_duration_s = -0.1;
+  robot.lidar.time_offset_s = -1e300;
+  ASSERT_EQ(violations(robot).size(), 1u);
+  EXPECT_EQ(violations(robot)[0],
+            "lidar.time_offset_s = -1e+300: expected at most 1000 either way");
+}
+
 TEST(RobotModel, LidarMustSeeFartherThanItsNearLimit) {
   RobotModel robot;
   robot.lidar.range_min_m = 5;
