@@ -28,7 +28,7 @@ build() {
 }
 
 # Processor seconds that the tests of one room may take in the release build.
-room_budget_s=60
+room_budget_s=100
 
 run_tests() {
   local status=0
