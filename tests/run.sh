@@ -31,7 +31,7 @@ build() {
 fuzz_s=120
 
 # Processor seconds that the tests of one room may take in the release build.
-room_budget_s=60
+room_budget_s=100
 
 run_tests() {
   local status=0

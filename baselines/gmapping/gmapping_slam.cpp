@@ -1,7 +1,5 @@
 #include "baselines/gmapping/gmapping_slam.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "baselines/gmapping/particle_filter.hpp"

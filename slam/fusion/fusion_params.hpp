@@ -76,16 +76,24 @@ struct FusionParams {
   template <class V>
   static void visit(FusionParams& p, V&& v);
   [[nodiscard]] std::vector<std::string> relations() const;
+
+ private:
+  template <class V>
+  static void visit_structure(FusionParams& p, V& v);
+  template <class V>
+  static void visit_sensors(FusionParams& p, V& v);
+  template <class V>
+  static void visit_tracking(FusionParams& p, V& v);
+  template <class V>
+  static void visit_loops(FusionParams& p, V& v);
 };
 
 // The published method, as facts about it are read: scalar degeneracy test, slip threshold,
 // matching between consecutive key scans, no wheel calibration, no loop closing.
 FusionParams fusion_paper_params();
 
-namespace detail {
-
 template <class V>
-void visit_structure(FusionParams& p, V& v) {
+void FusionParams::visit_structure(FusionParams& p, V& v) {
   using I = ParamInfo;
   v(I{"use_directional_degeneracy", "",
       "LiDAR factors only along the directions the scan constrains; false: the paper's scalar "
@@ -110,7 +118,7 @@ void visit_structure(FusionParams& p, V& v) {
 }
 
 template <class V>
-void visit_sensors(FusionParams& p, V& v) {
+void FusionParams::visit_sensors(FusionParams& p, V& v) {
   using I = ParamInfo;
   v(I{"wheel_translation_floor_m", "m", "smallest standard deviation of a wheel displacement", 1e-5,
       1},
@@ -155,7 +163,7 @@ void visit_sensors(FusionParams& p, V& v) {
 }
 
 template <class V>
-void visit_tracking(FusionParams& p, V& v) {
+void FusionParams::visit_tracking(FusionParams& p, V& v) {
   using I = ParamInfo;
   v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching", 1e-3, 10},
     p.match_prior_sigma_m);
@@ -171,7 +179,7 @@ void visit_tracking(FusionParams& p, V& v) {
 }
 
 template <class V>
-void visit_loops(FusionParams& p, V& v) {
+void FusionParams::visit_loops(FusionParams& p, V& v) {
   using I = ParamInfo;
   v(I{"loop_min_path_m", "m", "path before a place can count as seen again", 1, 1e4},
     p.loop_min_path_m);
@@ -193,14 +201,12 @@ void visit_loops(FusionParams& p, V& v) {
     p.loop_gate);
 }
 
-}  // namespace detail
-
 template <class V>
 void FusionParams::visit(FusionParams& p, V&& v) {
-  detail::visit_structure(p, v);
-  detail::visit_sensors(p, v);
-  detail::visit_tracking(p, v);
-  detail::visit_loops(p, v);
+  visit_structure(p, v);
+  visit_sensors(p, v);
+  visit_tracking(p, v);
+  visit_loops(p, v);
   matching::MatcherParams::visit(p.matcher, v);
   matching::ObservabilityParams::visit(p.observability, v);
   matching::CorrelativeParams::visit(p.correlative, v);

@@ -17,6 +17,7 @@ namespace corridor::reports {
 namespace {
 
 using results::RunResult;
+using testing::make_cases;
 using Texts = std::map<std::string, std::string>;
 using ::testing::AllOf;
 using ::testing::Contains;
@@ -27,21 +28,7 @@ using ::testing::StartsWith;
 
 std::vector<RunResult> synthetic_results(std::vector<testing::SyntheticSystem> systems,
                                          std::uint64_t num_worlds = 8) {
-  testing::SyntheticRun run;
-  run.systems = std::move(systems);
-  std::vector<RunResult> all;
-  for (const testing::SyntheticSystem& system : run.systems) {
-    for (std::uint64_t seed = 1; seed <= num_worlds; ++seed) {
-      all.push_back(testing::synthetic_result(run, system, seed));
-    }
-  }
-  return all;
-}
-
-Cases make_cases(const std::vector<RunResult>& results) {
-  std::vector<Case> cases;
-  for (const RunResult& result : results) cases.push_back({result, {}});
-  return {std::move(cases), {}, {}};
+  return testing::synthetic_results(testing::run_of(std::move(systems)), num_worlds);
 }
 
 TEST(TimingNotes, SayWhereTheNumberOfCasesAtATimeIsUnknown) {

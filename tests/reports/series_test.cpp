@@ -11,6 +11,7 @@ namespace corridor::reports {
 namespace {
 
 using results::RunResult;
+using testing::make_cases;
 
 RunResult karto_result(std::uint64_t seed = 1) {
   return testing::synthetic_result(testing::paper_like_run(), {"karto", 0.06}, seed);
@@ -23,12 +24,6 @@ RunResult changed_result(const std::string& value, std::uint64_t seed = 1) {
   result.parameters_hash = "hash-of-" + value;
   result.case_id += "-" + value;
   return result;
-}
-
-Cases make_cases(const std::vector<RunResult>& results) {
-  std::vector<Case> cases;
-  for (const RunResult& result : results) cases.push_back({result, {}});
-  return {std::move(cases), {}, {}};
 }
 
 std::vector<std::string> labels(const Cases& cases) {

@@ -175,6 +175,29 @@ RunResult synthetic_result(const SyntheticRun& run, const SyntheticSystem& syste
   return result;
 }
 
+SyntheticRun run_of(std::vector<SyntheticSystem> systems) {
+  SyntheticRun run;
+  run.systems = std::move(systems);
+  return run;
+}
+
+std::vector<results::RunResult> synthetic_results(const SyntheticRun& run,
+                                                  std::uint64_t num_worlds) {
+  std::vector<results::RunResult> all;
+  for (const SyntheticSystem& system : run.systems) {
+    for (std::uint64_t seed = 1; seed <= num_worlds; ++seed) {
+      all.push_back(synthetic_result(run, system, seed));
+    }
+  }
+  return all;
+}
+
+Cases make_cases(const std::vector<results::RunResult>& results) {
+  std::vector<Case> cases;
+  for (const results::RunResult& result : results) cases.push_back({result, {}});
+  return {std::move(cases), {}, {}};
+}
+
 void write_synthetic_run(const SyntheticRun& run, const fs::path& run_dir,
                          const std::vector<RunResult>& extra) {
   fs::create_directories(run_dir);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/results/run_result.hpp"
+#include "reports/cases.hpp"
 
 namespace corridor::reports::testing {
 
@@ -33,6 +34,16 @@ SyntheticRun paper_like_run();
 // The record of one system in one world, without files.
 results::RunResult synthetic_result(const SyntheticRun& run, const SyntheticSystem& system,
                                     std::uint64_t data_seed);
+
+// A run of these systems, the rest as by default.
+SyntheticRun run_of(std::vector<SyntheticSystem> systems);
+
+// The records of every system in worlds 1 to num_worlds, system by system.
+std::vector<results::RunResult> synthetic_results(const SyntheticRun& run,
+                                                  std::uint64_t num_worlds = 8);
+
+// Records without files, as a report reads them.
+Cases make_cases(const std::vector<results::RunResult>& results);
 
 // Writes `run_dir`/results.sqlite with all cases and `extra`, and runs/<case-id>/ with their files.
 void write_synthetic_run(const SyntheticRun& run, const std::filesystem::path& run_dir,

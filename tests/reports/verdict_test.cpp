@@ -17,16 +17,11 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::run_of;
 using ::testing::StartsWith;
 
 Cases synthetic_cases(const testing::SyntheticRun& run, std::uint64_t num_worlds = 8) {
-  std::vector<Case> all;
-  for (const testing::SyntheticSystem& system : run.systems) {
-    for (std::uint64_t seed = 1; seed <= num_worlds; ++seed) {
-      all.push_back({testing::synthetic_result(run, system, seed), {}});
-    }
-  }
-  return {std::move(all), {}, {}};
+  return testing::make_cases(testing::synthetic_results(run, num_worlds));
 }
 
 std::vector<std::string> all_sentences(const Cases& cases) {
@@ -36,12 +31,6 @@ std::vector<std::string> all_sentences(const Cases& cases) {
     sentences.insert(sentences.end(), verdict.details.begin(), verdict.details.end());
   }
   return sentences;
-}
-
-testing::SyntheticRun run_of(std::vector<testing::SyntheticSystem> systems) {
-  testing::SyntheticRun run;
-  run.systems = std::move(systems);
-  return run;
 }
 
 TEST(Verdicts, FollowTheNumbersAndNotTheNames) {

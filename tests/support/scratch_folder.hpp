@@ -13,7 +13,9 @@ namespace corridor::testing {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "corridor-XXXXXX").string();
+    // mkdtemp() replaces the six letters at the end.
+    std::string name =
+        (std::filesystem::temp_directory_path() / "corridor-").string() + std::string(6, 'X');
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder at " + name);
     path_ = name;
   }
