@@ -103,6 +103,7 @@ void write_files(const SyntheticRun& run, const SyntheticSystem& system, std::ui
   require(formats::write_tum(estimated_trajectory(stretch_ratio), folder / "online.tum"));
   require(formats::write_ros_map(estimated_map(stretch_ratio), folder / "map"));
   simulation::SimulationTruth truth;
+  truth.world = simulation::make_corridor({});
   truth.range_max_m = 4.5;
   std::ofstream(folder / "world.toml") << simulation::truth_toml(truth);
 }

@@ -93,8 +93,9 @@ TEST(BadRequest, CommandLinesThatCannotBeRead) {
   const ScratchFolder folder;
   expect_refused(folder, "", {"--help"});
   expect_refused(folder, "frobnicate", {"unknown command \"frobnicate\"", "simulate", "or data"});
-  expect_refused(folder, "data inspect x.clf",
-                 {"unknown command \"data inspect\"; expected list or verify"});
+  expect_refused(folder, "data mend x.clf",
+                 {"unknown command \"data mend\"; expected list, verify, fetch or inspect"});
+  expect_refused(folder, "data inspect x.clf", {"'x.clf' is neither a data set nor a log file"});
   expect_refused(folder, "run", {"SUITE"});
   expect_refused(folder, "run smoke --jobs none", {"--jobs"});
   expect_refused(folder, "run smoke --bogus", {"--bogus"});
