@@ -8,9 +8,9 @@
 #include <system_error>
 
 #include "bench/cli/conversions.hpp"
+#include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/pose_graph_file.hpp"
-#include "datasets/formats/trajectory_io.hpp"
+#include "datasets/formats/trajectories/trajectory_io.hpp"
 
 namespace corridor::cli {
 namespace {

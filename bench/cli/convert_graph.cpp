@@ -3,7 +3,7 @@
 #include "bench/cli/conversions.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/exit_code.hpp"
-#include "datasets/formats/pose_graph_file.hpp"
+#include "datasets/formats/graphs/pose_graph_file.hpp"
 
 namespace corridor::cli {
 

@@ -5,7 +5,7 @@
 #include "bench/cli/conversions.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/exit_code.hpp"
-#include "datasets/formats/trajectory_io.hpp"
+#include "datasets/formats/trajectories/trajectory_io.hpp"
 
 namespace corridor::cli {
 namespace {

@@ -19,9 +19,9 @@
 #include "bench/results/result_json.hpp"
 #include "bench/results/result_keys.hpp"
 #include "bench/runner/exit_code.hpp"
-#include "datasets/formats/relations.hpp"
-#include "datasets/formats/ros_map.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "datasets/simulation/truth.hpp"
 

@@ -12,7 +12,7 @@
 #include "bench/cli/log_report.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "datasets/formats/log_health.hpp"
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 
 namespace corridor::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bench/metrics/trajectory_errors.hpp"
 #include "bench/results/run_result.hpp"
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 #include "slam/core/trajectory.hpp"
 
 namespace corridor::metrics {

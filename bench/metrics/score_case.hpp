@@ -10,7 +10,7 @@
 #include "bench/metrics/alignment.hpp"
 #include "bench/metrics/association.hpp"
 #include "bench/results/run_result.hpp"
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 #include "datasets/simulation/world.hpp"
 #include "slam/core/grid_map.hpp"
 #include "slam/core/timestamp.hpp"

@@ -9,7 +9,7 @@
 
 #include "bench/runner/case_spec.hpp"
 #include "datasets/catalog/catalog.hpp"
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 #include "datasets/simulation/truth.hpp"
 #include "datasets/simulation/world.hpp"
 #include "slam/core/result.hpp"

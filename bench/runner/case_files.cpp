@@ -8,10 +8,10 @@
 
 #include "bench/results/result_json.hpp"
 #include "datasets/formats/atomic_file.hpp"
-#include "datasets/formats/g2o_file.hpp"
-#include "datasets/formats/map_png.hpp"
-#include "datasets/formats/ros_map.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/graphs/g2o_file.hpp"
+#include "datasets/formats/maps/map_png.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 #include "slam/graph/graph_source.hpp"
 
 namespace corridor::runner {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "datasets/formats/bag_topics.hpp"
+#include "datasets/formats/bag/bag_topics.hpp"
+#include "datasets/formats/graphs/pose_graph.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/pose_graph.hpp"
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
 

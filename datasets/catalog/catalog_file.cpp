@@ -9,7 +9,7 @@
 
 #include "datasets/catalog/catalog.hpp"
 #include "datasets/catalog/public_url.hpp"
-#include "datasets/formats/bag_topics.hpp"
+#include "datasets/formats/bag/bag_topics.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/robot_toml.hpp"
 

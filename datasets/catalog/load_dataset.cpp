@@ -9,8 +9,8 @@
 #include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
 #include "datasets/catalog/sha256.hpp"
+#include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "datasets/formats/lidar_clock.hpp"
-#include "datasets/formats/pose_graph_file.hpp"
 #include "datasets/formats/robot_toml.hpp"
 
 namespace corridor::catalog {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/rawlog.hpp"
+#include "datasets/formats/rawlog/rawlog.hpp"
 
 namespace corridor::formats {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 #include "slam/core/sensor_log.hpp"
 
 namespace corridor::formats {

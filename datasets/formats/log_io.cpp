@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
-#include "datasets/formats/bag.hpp"
+#include "datasets/formats/bag/bag.hpp"
 #include "datasets/formats/calibration.hpp"
-#include "datasets/formats/carmen.hpp"
+#include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/log_parsers.hpp"
 #include "datasets/formats/parsed_log.hpp"
-#include "datasets/formats/rawlog.hpp"
+#include "datasets/formats/rawlog/rawlog.hpp"
 #include "datasets/formats/stamp_order.hpp"
 #include "datasets/formats/tick_odometry.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 
 namespace corridor::formats {
 namespace {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "datasets/formats/bag_topics.hpp"
+#include "datasets/formats/bag/bag_topics.hpp"
 #include "datasets/formats/raw_sensors.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"

@@ -3,12 +3,12 @@
 #include <system_error>
 #include <utility>
 
-#include "datasets/formats/bag.hpp"
-#include "datasets/formats/carmen.hpp"
+#include "datasets/formats/bag/bag.hpp"
+#include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/file_bytes.hpp"
-#include "datasets/formats/lcm.hpp"
-#include "datasets/formats/lcm_framing.hpp"
-#include "datasets/formats/rawlog.hpp"
+#include "datasets/formats/lcm/lcm.hpp"
+#include "datasets/formats/lcm/lcm_framing.hpp"
+#include "datasets/formats/rawlog/rawlog.hpp"
 #include "datasets/formats/robot_toml.hpp"
 #include "datasets/formats/ticks.hpp"
 

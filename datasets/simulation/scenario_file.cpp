@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "datasets/formats/ros_map.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
 #include "datasets/simulation/scenario_sections.hpp"
 #include "datasets/simulation/toml_input.hpp"
 #include "datasets/simulation/world_table.hpp"

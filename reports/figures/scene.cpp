@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "bench/statistics/quantiles.hpp"
-#include "datasets/formats/ros_map.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 #include "reports/figures/raster.hpp"
 
 namespace corridor::figures {

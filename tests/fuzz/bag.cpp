@@ -1,6 +1,6 @@
 // Bags through rosbag, which opens a file: LOG.topics.toml, the separator, the bag. What the
 // framing check lets in, rosbag must read.
-#include "datasets/formats/bag.hpp"
+#include "datasets/formats/bag/bag.hpp"
 
 #include <string>
 

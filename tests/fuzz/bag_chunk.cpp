@@ -1,5 +1,5 @@
 // One chunk of a bag: a letter for its compression, the stated size in two bytes, the data.
-#include "datasets/formats/bag_chunk.hpp"
+#include "datasets/formats/bag/bag_chunk.hpp"
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // The check that comes before rosbag, chunks decompressed.
-#include "datasets/formats/bag_framing.hpp"
+#include "datasets/formats/bag/bag_framing.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

@@ -1,5 +1,5 @@
 // CARMEN text logs, with what follows the parser.
-#include "datasets/formats/carmen.hpp"
+#include "datasets/formats/carmen/carmen.hpp"
 
 #include "tests/fuzz/settle.hpp"
 #include "tests/fuzz/targets.hpp"

@@ -1,5 +1,5 @@
 // EuRoC trajectories; what was read can be written and read again.
-#include "datasets/formats/trajectory_texts.hpp"
+#include "datasets/formats/trajectories/trajectory_texts.hpp"
 
 #include "slam/core/expect.hpp"
 #include "tests/fuzz/targets.hpp"

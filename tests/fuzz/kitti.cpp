@@ -1,6 +1,6 @@
 // KITTI trajectories: the poses, the separator, the stamps. What was read can be written and read
 // again.
-#include "datasets/formats/trajectory_texts.hpp"
+#include "datasets/formats/trajectories/trajectory_texts.hpp"
 
 #include "slam/core/expect.hpp"
 #include "tests/fuzz/inputs.hpp"

@@ -1,5 +1,5 @@
 // LCM event logs, framing and messages: the calibration's TOML, the separator, the log.
-#include "datasets/formats/lcm.hpp"
+#include "datasets/formats/lcm/lcm.hpp"
 
 #include "datasets/formats/robot_toml.hpp"
 #include "tests/fuzz/inputs.hpp"

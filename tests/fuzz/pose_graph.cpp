@@ -1,10 +1,10 @@
 // Pose graphs, read as g2o and as TORO. A graph that was read is the same after being written and
 // read again, and can be handed to a solver.
-#include "datasets/formats/pose_graph.hpp"
+#include "datasets/formats/graphs/pose_graph.hpp"
 
 #include <algorithm>
 
-#include "datasets/formats/pose_graph_file.hpp"
+#include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "slam/core/expect.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -1,5 +1,5 @@
 // Rawlogs through MRPT: what the framing check lets in, MRPT must read within its limits.
-#include "datasets/formats/rawlog.hpp"
+#include "datasets/formats/rawlog/rawlog.hpp"
 
 #include "tests/fuzz/settle.hpp"
 #include "tests/fuzz/targets.hpp"

@@ -1,5 +1,5 @@
 // The check that comes before MRPT.
-#include "datasets/formats/rawlog_framing.hpp"
+#include "datasets/formats/rawlog/rawlog_framing.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

@@ -1,5 +1,5 @@
 // Relations.
-#include "datasets/formats/relations.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 
 #include "tests/fuzz/inputs.hpp"
 #include "tests/fuzz/targets.hpp"

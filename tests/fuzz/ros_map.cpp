@@ -1,5 +1,5 @@
 // ROS maps: the yaml, the separator, the image, which the yaml names "101".
-#include "datasets/formats/ros_map.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
 
 #include "tests/fuzz/inputs.hpp"
 #include "tests/fuzz/targets.hpp"

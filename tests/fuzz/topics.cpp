@@ -1,5 +1,5 @@
 // LOG.topics.toml.
-#include "datasets/formats/bag_topics.hpp"
+#include "datasets/formats/bag/bag_topics.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

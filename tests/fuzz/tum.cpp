@@ -1,7 +1,7 @@
 // TUM trajectories; what was read can be written and read again.
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 
-#include "datasets/formats/trajectory_texts.hpp"
+#include "datasets/formats/trajectories/trajectory_texts.hpp"
 #include "slam/core/expect.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "bench/metrics/relations.hpp"
 #include "bench/metrics/trajectory_errors.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 
 namespace corridor::metrics {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "datasets/formats/bag_framing.hpp"
+#include "datasets/formats/bag/bag_framing.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "tests/datasets/formats/bag_support.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/formats/rosbag_door.hpp"
+#include "datasets/formats/bag/rosbag_door.hpp"
 
 namespace corridor::formats::test {
 

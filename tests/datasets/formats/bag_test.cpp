@@ -1,5 +1,5 @@
 // What ROS 1 bags give when they are fit.
-#include "datasets/formats/bag.hpp"
+#include "datasets/formats/bag/bag.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "datasets/formats/bag_framing.hpp"
+#include "datasets/formats/bag/bag_framing.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "tests/datasets/formats/bag_support.hpp"
 #include "tests/datasets/formats/formats_support.hpp"

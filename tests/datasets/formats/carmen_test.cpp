@@ -1,4 +1,4 @@
-#include "datasets/formats/carmen.hpp"
+#include "datasets/formats/carmen/carmen.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "datasets/formats/g2o_file.hpp"
+#include "datasets/formats/graphs/g2o_file.hpp"
 
 #include <gtest/gtest.h>
 

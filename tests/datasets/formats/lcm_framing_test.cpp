@@ -1,4 +1,4 @@
-#include "datasets/formats/lcm_framing.hpp"
+#include "datasets/formats/lcm/lcm_framing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "datasets/formats/file_bytes.hpp"
-#include "datasets/formats/lcm.hpp"
+#include "datasets/formats/lcm/lcm.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "slam/core/rng.hpp"
 #include "tests/datasets/formats/formats_support.hpp"

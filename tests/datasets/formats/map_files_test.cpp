@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "datasets/formats/map_png.hpp"
-#include "datasets/formats/ros_map.hpp"
+#include "datasets/formats/maps/map_png.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 
 namespace corridor::formats {

@@ -1,4 +1,4 @@
-#include "datasets/formats/pose_graph_file.hpp"
+#include "datasets/formats/graphs/pose_graph_file.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "datasets/formats/g2o_file.hpp"
+#include "datasets/formats/graphs/g2o_file.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 #include "tests/support/recorded_data.hpp"
 

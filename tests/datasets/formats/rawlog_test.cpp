@@ -5,8 +5,8 @@
 
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/rawlog.hpp"
-#include "datasets/formats/rawlog_framing.hpp"
+#include "datasets/formats/rawlog/rawlog.hpp"
+#include "datasets/formats/rawlog/rawlog_framing.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 
 namespace corridor::formats {

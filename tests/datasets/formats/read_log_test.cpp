@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 
 namespace corridor::formats {

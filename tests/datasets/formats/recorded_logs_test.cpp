@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/relations.hpp"
 #include "datasets/formats/robot_toml.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 #include "tests/support/recorded_data.hpp"
 

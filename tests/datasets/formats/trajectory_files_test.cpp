@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "datasets/formats/relations.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 
 namespace corridor::formats {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/formats/trajectory_io.hpp"
-#include "datasets/formats/trajectory_texts.hpp"
-#include "datasets/formats/tum.hpp"
+#include "datasets/formats/trajectories/trajectory_io.hpp"
+#include "datasets/formats/trajectories/trajectory_texts.hpp"
+#include "datasets/formats/trajectories/tum.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 #include "tests/support/recorded_data.hpp"
 

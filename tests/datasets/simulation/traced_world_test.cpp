@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "datasets/formats/ros_map.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
 #include "datasets/simulation/ray_casting.hpp"
 #include "datasets/simulation/simulate.hpp"
 #include "datasets/simulation/world.hpp"

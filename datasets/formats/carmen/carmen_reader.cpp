@@ -1,0 +1,246 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "datasets/formats/carmen/carmen.hpp"
+#include "datasets/formats/text.hpp"
+
+namespace corridor::formats {
+namespace {
+
+constexpr double kHalfTurn_rad = std::numbers::pi;
+// Added to a sensor's limit where a log has an infinite range: finite, and beyond the limit.
+constexpr float kBeyondLimit_m = 1.0F;
+constexpr std::size_t kMaxRemissions = kMaxBeams;
+
+// Takes fields off one line; the first thing wrong is kept and all later answers mean nothing.
+class LineReader {
+ public:
+  LineReader(std::string_view rest, std::string where) : rest_(rest), where_(std::move(where)) {}
+
+  double number(const char* name) {
+    const std::string_view field = take_field(rest_);
+    const auto value = parse_double(field);
+    if (!value || !std::isfinite(*value)) refuse(name, field, "a finite number");
+    return value.value_or(0);
+  }
+
+  // Capped before anything is allocated.
+  std::size_t count(const char* name, std::size_t min, std::size_t max) {
+    const std::string_view field = take_field(rest_);
+    const auto value = parse_integer(field);
+    if (!value || *value < static_cast<std::int64_t>(min) ||
+        *value > static_cast<std::int64_t>(max)) {
+      refuse(name, field, fmt::format("a whole number from {} to {}", min, max).c_str());
+      return min;
+    }
+    return static_cast<std::size_t>(*value);
+  }
+
+  Pose2 pose(const char* name) {
+    const double x_m = number(name);
+    const double y_m = number(name);
+    const double theta_rad = number(name);
+    return has_failed() ? Pose2() : Pose2(x_m, y_m, theta_rad);
+  }
+
+  // A range may be infinite: no return.
+  double range() {
+    const std::string_view field = take_field(rest_);
+    const auto value = parse_double(field);
+    if (!value || std::isnan(*value) || *value < 0) refuse("range", field, "a number >= 0");
+    return value.value_or(0);
+  }
+
+  // "stamp host logger_stamp" and nothing else.
+  Timestamp stamp_and_end() {
+    const std::string_view field = take_field(rest_);
+    const auto stamp = parse_stamp(field);
+    if (!stamp) refuse("stamp", field, "decimal seconds");
+    const std::string_view host = take_field(rest_);
+    const std::string_view logger_stamp = take_field(rest_);
+    if (host.empty() || !parse_double(logger_stamp)) {
+      refuse("logger stamp", logger_stamp, "'stamp host logger_stamp' at the line's end");
+    }
+    if (const auto more = take_field(rest_); !more.empty()) {
+      refuse("field", more, "the line's end");
+    }
+    return stamp.value_or(Timestamp{});
+  }
+
+  void refuse(const char* name, std::string_view field, const char* expected) {
+    if (has_failed()) return;
+    const std::string found = field.empty() ? "missing" : quote(field);
+    error_ = Error{ErrorCode::kMalformed, fmt::format("{} {}", name, found), where_, expected};
+  }
+
+  [[nodiscard]] bool has_failed() const { return error_.has_value(); }
+  [[nodiscard]] const Error& error() const { return *error_; }
+
+ private:
+  std::string_view rest_;
+  std::string where_;
+  std::optional<Error> error_;
+};
+
+class CarmenParser {
+ public:
+  CarmenParser(const std::string& file, const CarmenOptions& options)
+      : file_(file), options_(options) {
+    log_.origin_unit = "line";
+  }
+
+  Result<void> take(std::string_view line, std::uint64_t line_number) {
+    line_number_ = line_number;
+    const std::string_view message = take_field(line);
+    if (message.empty() || message.front() == '#') return {};
+    LineReader reader(line, fmt::format("{}:{}", file_, line_number));
+    if (message == "FLASER") {
+      take_flaser(reader);
+    } else if (message == "ROBOTLASER1") {
+      take_robotlaser(reader);
+    } else if (message == "ODOM") {
+      take_odom(reader);
+    } else if (is_skipped_carmen_message(message)) {
+      ++log_.counts[fmt::format("{} lines skipped", message)];
+    } else {
+      reader.refuse("message", message, "a CARMEN message such as FLASER, ROBOTLASER1 or ODOM");
+    }
+    if (reader.has_failed()) return tl::make_unexpected(reader.error());
+    return {};
+  }
+
+  ParsedLog finish() { return std::move(log_); }
+
+ private:
+  void take_flaser(LineReader& reader) {
+    log_.scans_state_pose = false;
+    LaserScan scan;
+    const std::size_t num_beams = reader.count("number of ranges", 1, kMaxBeams);
+    scan.range_max_m = options_.no_return_range_m.value_or(options_.flaser_range_max_m);
+    scan.angle_min_rad = -kHalfTurn_rad / 2;
+    const std::size_t num_steps = num_beams % 2 == 0 ? num_beams : num_beams - 1;
+    scan.angle_increment_rad = num_steps == 0 ? 0 : kHalfTurn_rad / static_cast<double>(num_steps);
+    take_ranges(reader, num_beams, scan);
+    reader.pose("pose");  // corrected by whoever wrote the log, or the odometry once more
+    const Pose2 T_odom_base = reader.pose("odometry pose");
+    scan.stamp = reader.stamp_and_end();
+    add_scan(reader, T_odom_base, std::move(scan));
+  }
+
+  void take_robotlaser(LineReader& reader) {
+    LaserScan scan;
+    reader.number("laser type");
+    scan.angle_min_rad = reader.number("start angle");
+    const double field_of_view_rad = reader.number("field of view");
+    scan.angle_increment_rad = reader.number("angular resolution");
+    const double range_max_m = reader.number("maximum range");
+    scan.range_max_m = options_.no_return_range_m.value_or(range_max_m);
+    reader.number("accuracy");
+    reader.number("remission mode");
+    const std::size_t num_beams = reader.count("number of ranges", 1, kMaxBeams);
+    check_geometry(reader, field_of_view_rad, num_beams, scan);
+    take_ranges(reader, num_beams, scan);
+    const std::size_t num_remissions = reader.count("number of remissions", 0, kMaxRemissions);
+    for (std::size_t i = 0; i < num_remissions && !reader.has_failed(); ++i) {
+      reader.number("remission");
+    }
+    const Pose2 T_odom_lidar = reader.pose("laser pose");
+    const Pose2 T_odom_base = reader.pose("robot pose");
+    scan.T_base_lidar = mounting(T_odom_base.between(T_odom_lidar));
+    for (const char* name :
+         {"tv", "rv", "forward safety distance", "side safety distance", "turn axis"}) {
+      reader.number(name);
+    }
+    scan.stamp = reader.stamp_and_end();
+    add_scan(reader, T_odom_base, std::move(scan));
+  }
+
+  // Two printed poses give the mounting only to their last digits: it stays what it was while a new
+  // one differs by less.
+  Pose2 mounting(const Pose2& T_base_lidar) {
+    constexpr double kPrinted_m = 1e-4;
+    constexpr double kPrinted_rad = 1e-4;
+    const Pose2::Tangent change = T_base_lidar.minus(last_T_base_lidar_);
+    const bool is_same =
+        change.head<2>().norm() < kPrinted_m && std::abs(change.z()) < kPrinted_rad;
+    if (!is_same) last_T_base_lidar_ = T_base_lidar;
+    return last_T_base_lidar_;
+  }
+
+  void take_odom(LineReader& reader) {
+    const Pose2 T_odom_base = reader.pose("odometry pose");
+    for (const char* name : {"tv", "rv", "acceleration"}) reader.number(name);
+    const Timestamp stamp = reader.stamp_and_end();
+    if (!reader.has_failed()) {
+      log_.add(WheelSample{stamp, T_odom_base, std::nullopt}, line_number_);
+    }
+  }
+
+  // The stated field of view spans n or n - 1 steps: a beam count that is off by one shows here.
+  static void check_geometry(LineReader& reader, double field_of_view_rad, std::size_t num_beams,
+                             const LaserScan& scan) {
+    if (reader.has_failed()) return;
+    const double num_steps = field_of_view_rad / scan.angle_increment_rad;
+    const auto n = static_cast<double>(num_beams);
+    if (!(scan.angle_increment_rad > 0) || !(num_steps > n - 1.5 && num_steps < n + 0.5)) {
+      reader.refuse(
+          "number of ranges", fmt::format("{}", num_beams),
+          fmt::format("about {:.1f} for this field of view and resolution", num_steps).c_str());
+    }
+    if (!(scan.range_max_m > 0)) {
+      reader.refuse("maximum range", fmt::format("{}", scan.range_max_m), "a number > 0");
+    }
+  }
+
+  void take_ranges(LineReader& reader, std::size_t num_beams, LaserScan& scan) {
+    if (reader.has_failed()) return;
+    scan.ranges_m.reserve(num_beams);
+    scan.is_valid.reserve(num_beams);
+    for (std::size_t i = 0; i < num_beams && !reader.has_failed(); ++i) {
+      const double range_m = reader.range();
+      const bool is_return = range_m > 0 && range_m < scan.range_max_m;
+      if (range_m == 0) ++log_.counts["beams of range 0 taken as no return"];
+      auto kept_m = static_cast<float>(range_m);
+      if (!std::isfinite(kept_m)) {
+        ++log_.counts["infinite ranges replaced by the sensor's limit + 1 m, as no return"];
+        kept_m = static_cast<float>(scan.range_max_m) + kBeyondLimit_m;
+      }
+      scan.ranges_m.push_back(kept_m);
+      scan.is_valid.push_back(is_return && kept_m <= scan.range_max_m ? 1 : 0);
+    }
+  }
+
+  void add_scan(const LineReader& reader, const Pose2& T_odom_base, LaserScan scan) {
+    if (reader.has_failed()) return;
+    const auto* last =
+        log_.events.empty() ? nullptr : std::get_if<WheelSample>(&log_.events.back());
+    const bool is_known =
+        last != nullptr && last->stamp == scan.stamp && last->T_odom_base == T_odom_base;
+    if (!is_known) log_.add(WheelSample{scan.stamp, T_odom_base, std::nullopt}, line_number_);
+    log_.add(std::move(scan), line_number_);
+  }
+
+  const std::string& file_;
+  const CarmenOptions& options_;
+  std::uint64_t line_number_ = 0;
+  Pose2 last_T_base_lidar_;
+  ParsedLog log_;
+};
+
+}  // namespace
+
+Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
+                               const CarmenOptions& options) {
+  CarmenParser parser(file, options);
+  std::uint64_t line_number = 0;
+  while (const auto line = take_line(text)) {
+    if (auto taken = parser.take(*line, ++line_number); !taken) {
+      return tl::make_unexpected(taken.error());
+    }
+  }
+  return parser.finish();
+}
+
+}  // namespace corridor::formats

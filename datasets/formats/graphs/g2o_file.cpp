@@ -1,0 +1,71 @@
+#include "datasets/formats/graphs/g2o_file.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "datasets/formats/atomic_file.hpp"
+#include "datasets/formats/graphs/pose_graph_file.hpp"
+#include "slam/graph/factors/pose_factors.hpp"
+
+namespace corridor::formats {
+namespace {
+
+std::vector<std::uint32_t> poses_of(const graph::Values& values) {
+  std::vector<std::uint32_t> indices;
+  for (const graph::Key key : values.keys()) {
+    if (key.kind == graph::VariableKind::kPose) indices.push_back(key.index);
+  }
+  return indices;
+}
+
+// What the vocabulary of g2o's SE2 types cannot hold, by name and number.
+std::string omission_lines(const std::map<std::string, std::size_t>& factors,
+                           std::size_t num_other_variables) {
+  std::string lines;
+  for (const auto& [type, count] : factors) {
+    lines += fmt::format("# left out: {} factors of type {}\n", count, type);
+  }
+  if (num_other_variables > 0) {
+    lines += fmt::format("# left out: {} variables that are not poses\n", num_other_variables);
+  }
+  return lines;
+}
+
+}  // namespace
+
+Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& values,
+                       const std::filesystem::path& path) {
+  PoseGraph written;
+  std::set<std::uint32_t> poses_with_prior;
+  std::map<std::string, std::size_t> left_out;
+  for (const graph::FactorPtr& factor : graph.slots()) {
+    if (factor == nullptr) continue;
+    if (const auto* relative = dynamic_cast<const graph::RelativePose*>(factor.get())) {
+      const auto keys = relative->keys();
+      written.edges.push_back(
+          {keys[0].index, keys[1].index, relative->measured_T_i_j(), relative->information()});
+    } else if (const auto* prior = dynamic_cast<const graph::PosePrior*>(factor.get())) {
+      poses_with_prior.insert(prior->keys()[0].index);
+    } else {
+      ++left_out[std::string(factor->type())];
+    }
+  }
+  for (const std::uint32_t index : poses_of(values)) {
+    written.vertices.push_back({index, values.pose(index)});
+  }
+  written.fixed.assign(poses_with_prior.begin(), poses_with_prior.end());
+  if (written.fixed.empty() && !written.vertices.empty()) {
+    written.fixed.push_back(written.vertices.front().id);
+  }
+  std::string comments = omission_lines(left_out, values.size() - written.vertices.size());
+  for (const std::uint32_t index : poses_with_prior) {
+    comments += fmt::format("# pose {} has a prior; here it is fixed\n", index);
+  }
+  return write_file_atomically(path, comments + pose_graph_text(written, GraphFormat::kG2o));
+}
+
+}  // namespace corridor::formats
