@@ -47,7 +47,15 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
                 "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
                     sidecar_of(file, ".robot.toml").string());
   }
-  if (format == LogFormat::kTicks) return parse_ticks(bytes, file, stated.robot);
+  const RawClock other = format == LogFormat::kTicks ? RawClock::kEventOffset : RawClock::kScanRate;
+  if (stated.raw.clock == other) {
+    return fail(
+        ErrorCode::kInvalid, "raw.clock is one that logs of this format do not have", file,
+        format == LogFormat::kTicks ? R"("data" or "scan-rate")" : R"("data" or "event-offset")");
+  }
+  if (format == LogFormat::kTicks) {
+    return parse_ticks(bytes, file, stated.robot, stated.raw.clock);
+  }
   return parse_lcm(bytes, file, {stated.raw, stated.robot});
 }
 

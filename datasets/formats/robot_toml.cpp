@@ -151,11 +151,24 @@ std::optional<bool> take_choice(TableReader& table, std::string_view key, std::s
   return std::nullopt;
 }
 
+void take_clock(TableReader& table, RawClock& clock, std::vector<std::string>& wrong) {
+  std::string word;
+  table.text("clock", word);
+  if (word == "data") {
+    clock = RawClock::kData;
+  } else if (word == "event-offset") {
+    clock = RawClock::kEventOffset;
+  } else if (word == "scan-rate") {
+    clock = RawClock::kScanRate;
+  } else if (!word.empty()) {
+    wrong.push_back(
+        fmt::format(R"(raw.clock = "{}": expected "data", "event-offset" or "scan-rate")", word));
+  }
+}
+
 void take_raw(const toml::table& document, RawSensors& raw, std::vector<std::string>& wrong) {
   TableReader table(document, "raw", wrong);
-  if (const auto is_offset = take_choice(table, "clock", "event-offset", "data", wrong)) {
-    raw.clock = *is_offset ? RawClock::kEventOffset : RawClock::kData;
-  }
+  take_clock(table, raw.clock, wrong);
   if (const auto is_clockwise =
           take_choice(table, "lidar_angles", "clockwise", "counter-clockwise", wrong)) {
     raw.is_lidar_clockwise = *is_clockwise;

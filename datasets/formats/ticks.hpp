@@ -11,14 +11,16 @@
 #include <string_view>
 
 #include "datasets/formats/parsed_log.hpp"
+#include "datasets/formats/raw_sensors.hpp"
 #include "slam/core/result.hpp"
 
 namespace corridor::formats {
 
 // Ticks become odometry by the robot's wheels (tick_odometry.hpp). A row's scan was taken
 // lidar.time_offset_s before the row's stamp: the scans are moved by it and put in order with the
-// ticks. Ranges beyond lidar.range_max_m are no return.
+// ticks. With RawClock::kScanRate they are put onto a constant rate before; a row that is more than
+// three periods off it is an Error. Ranges beyond lidar.range_max_m are no return.
 Result<ParsedLog> parse_ticks(std::string_view text, const std::string& file,
-                              const RobotModel& robot);
+                              const RobotModel& robot, RawClock clock);
 
 }  // namespace corridor::formats

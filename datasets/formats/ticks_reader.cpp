@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "datasets/formats/even_stamps.hpp"
 #include "datasets/formats/sensor_merge.hpp"
 #include "datasets/formats/text.hpp"
 #include "datasets/formats/tick_odometry.hpp"
@@ -28,11 +29,12 @@ constexpr std::int64_t kNanosecondsPerMicrosecond = 1000;
 // The year 2096, and more turns than a wheel lasts: beyond lie broken numbers.
 constexpr std::int64_t kMaxStamp_us = 4'000'000'000'000'000;
 constexpr std::int64_t kMaxTicks = 1'000'000'000'000;
+constexpr int kMaxPeriodsOff = 3;
 
 class TicksParser {
  public:
-  TicksParser(const std::string& file, const RobotModel& robot)
-      : file_(file), robot_(robot), wheels_(robot.wheels) {
+  TicksParser(const std::string& file, const RobotModel& robot, RawClock clock)
+      : file_(file), robot_(robot), clock_(clock), wheels_(robot.wheels) {
     log_.origin_unit = "line";
     log_.scans_state_pose = false;
     log_.is_time_offset_applied = true;
@@ -55,16 +57,45 @@ class TicksParser {
     return {};
   }
 
-  ParsedLog finish() {
+  Result<ParsedLog> finish() {
+    if (clock_ == RawClock::kScanRate) {
+      if (auto even = put_scans_onto_rate(); !even) return tl::make_unexpected(even.error());
+    }
     if (robot_.lidar.time_offset_s != 0) {
-      merge_sensors(log_);
       log_.notes.push_back(fmt::format("scans stamped {} s earlier than their rows, as calibrated",
                                        robot_.lidar.time_offset_s));
     }
+    if (robot_.lidar.time_offset_s != 0 || clock_ == RawClock::kScanRate) merge_sensors(log_);
     return std::move(log_);
   }
 
  private:
+  Result<void> put_scans_onto_rate() {
+    std::vector<LaserScan*> scans;
+    std::vector<Timestamp> stamps;
+    for (SensorEvent& event : log_.events) {
+      auto* scan = std::get_if<LaserScan>(&event);
+      if (scan == nullptr) continue;
+      scans.push_back(scan);
+      stamps.push_back(scan->stamp);
+    }
+    if (stamps.size() < 2) return {};
+    const EvenStamps even = even_stamps(stamps);
+    if (even.largest_move_s > kMaxPeriodsOff * even.period_s) {
+      // A row holds a reading of the wheels and a scan: the scan's line is its number in order.
+      return fail(ErrorCode::kMalformed,
+                  fmt::format("a scan {:.3f} s off a constant rate of one in {:.4f} s",
+                              even.largest_move_s, even.period_s),
+                  fmt::format("{}:{}", file_, even.most_moved + 1),
+                  fmt::format("at most {} periods, or raw.clock = \"data\"", kMaxPeriodsOff));
+    }
+    for (std::size_t i = 0; i < scans.size(); ++i) scans[i]->stamp = even.stamps[i];
+    log_.notes.push_back(
+        fmt::format("scans put onto a constant rate of one in {:.5f} s, moved by {:.3f} s at most",
+                    even.period_s, even.largest_move_s));
+    return {};
+  }
+
   void refuse(std::string what, std::string expected) {
     if (error_) return;
     error_ = Error{ErrorCode::kMalformed, std::move(what), where(), std::move(expected)};
@@ -129,6 +160,7 @@ class TicksParser {
 
   const std::string& file_;
   const RobotModel& robot_;
+  RawClock clock_;
   TickOdometry wheels_;
   ParsedLog log_;
   std::uint64_t line_number_ = 0;
@@ -139,8 +171,8 @@ class TicksParser {
 }  // namespace
 
 Result<ParsedLog> parse_ticks(std::string_view text, const std::string& file,
-                              const RobotModel& robot) {
-  TicksParser parser(file, robot);
+                              const RobotModel& robot, RawClock clock) {
+  TicksParser parser(file, robot, clock);
   std::uint64_t line_number = 0;
   while (const auto line = take_line(text)) {
     if (auto taken = parser.take(*line, ++line_number); !taken) {

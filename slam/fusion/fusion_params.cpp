@@ -19,6 +19,7 @@ FusionParams fusion_paper_params() {
   params.use_submaps = false;
   params.use_wheel_scale = false;
   params.use_loop_closing = false;
+  params.hold_unseen_passes = 0;
   return params;
 }
 

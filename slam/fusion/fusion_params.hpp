@@ -52,6 +52,7 @@ struct FusionParams {
 
   double match_prior_sigma_m = 0.1;  // least width of the prediction while matching
   double match_prior_sigma_rad = 0.05;
+  int hold_unseen_passes = 2;  // further matches, held at the prediction where the last saw nothing
   double jump_inlier_ratio = 0.8;  // a match that contradicts the prediction must explain this much
   double retry_inlier_ratio = 0.7;  // fewer explained points: search the window
   double retry_window_m = 0.8;
@@ -169,6 +170,9 @@ void FusionParams::visit_tracking(FusionParams& p, V& v) {
     p.match_prior_sigma_m);
   v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching", 1e-3, 3},
     p.match_prior_sigma_rad);
+  v(I{"hold_unseen_passes", "1",
+      "further matches, each held at the prediction along what the last did not see", 0, 10},
+    p.hold_unseen_passes);
   v(I{"jump_inlier_ratio", "1",
       "smallest share of explained points of a match that contradicts the prediction", 0, 1},
     p.jump_inlier_ratio);

@@ -56,9 +56,14 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
   const Pose2 T_predicted = T_submap_last * prediction.T_last_now;
   TrackedScan tracked;
   tracked.T_submap_base = T_predicted;
-  const matching::MatchResult match =
-      match_or_search(submap, points_base_m, T_predicted, loose_information(prediction, params),
-                      robot.lidar.range_sigma_m, params);
+  const Eigen::Matrix3d loose = loose_information(prediction, params);
+  matching::MatchResult match =
+      match_or_search(submap, points_base_m, T_predicted, loose, robot.lidar.range_sigma_m, params);
+  for (int i = 0; i < params.hold_unseen_passes && match.is_usable(); ++i) {
+    const Eigen::Matrix3d unseen = matching::unseen_information(match, params.observability);
+    if (unseen.isZero()) break;
+    match = submap.match(points_base_m, T_predicted, loose + unseen, robot.lidar.range_sigma_m);
+  }
   if (!match.is_usable()) return tracked;
   tracked.match = matching::observable_part(match, params.observability);
   // The pose at the last scan came from a match of the same kind: its error counts too.

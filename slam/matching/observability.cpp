@@ -1,35 +1,69 @@
 #include "slam/matching/observability.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 
 namespace corridor::matching {
 
-ObservableMatch observable_part(const MatchResult& match, const ObservabilityParams& params) {
-  // In units in which the floor is the identity, metres and radians can be compared.
-  const Eigen::Vector3d unit(params.translation_floor_m, params.translation_floor_m,
-                             params.rotation_floor_rad);
+namespace {
+
+// In units in which the floor is the identity, metres and radians can be compared.
+Eigen::Vector3d unit_of(const ObservabilityParams& params) {
+  return {params.translation_floor_m, params.translation_floor_m, params.rotation_floor_rad};
+}
+
+struct Direction {
+  Eigen::Vector3d v;  // in those units
+  double information = 0;
+  bool is_seen = false;
+};
+
+std::array<Direction, 3> directions_of(const MatchResult& match,
+                                       const ObservabilityParams& params) {
+  const Eigen::Vector3d unit = unit_of(params);
   const Eigen::Matrix3d scaled = unit.asDiagonal() * match.information * unit.asDiagonal();
   const Eigen::Matrix3d spurious =
       unit.asDiagonal() * match.spurious_information * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scaled);
   const double best = eigen.eigenvalues()(2);
-
-  ObservableMatch part;
-  Eigen::Vector3d step = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d gradient = unit.cwiseProduct(match.gradient);
+  std::array<Direction, 3> directions;
   for (int i = 0; i < 3; ++i) {
     const double lambda = eigen.eigenvalues()(i);
     const Eigen::Vector3d v = eigen.eigenvectors().col(i);
     const double noise = v.dot(spurious * v);
-    const bool is_seen = lambda > params.min_information_ratio * best &&
-                         lambda > params.min_spurious_factor * noise && lambda > 0;
-    if (!is_seen) continue;
+    directions[static_cast<std::size_t>(i)] = {v, lambda,
+                                               lambda > params.min_information_ratio * best &&
+                                                   lambda > params.min_spurious_factor * noise &&
+                                                   lambda > 0};
+  }
+  return directions;
+}
+
+}  // namespace
+
+Eigen::Matrix3d unseen_information(const MatchResult& match, const ObservabilityParams& params) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (const Direction& direction : directions_of(match, params)) {
+    if (!direction.is_seen) information += direction.v * direction.v.transpose();
+  }
+  const Eigen::Vector3d per_unit = unit_of(params).cwiseInverse();
+  return per_unit.asDiagonal() * information * per_unit.asDiagonal();
+}
+
+ObservableMatch observable_part(const MatchResult& match, const ObservabilityParams& params) {
+  const Eigen::Vector3d unit = unit_of(params);
+  ObservableMatch part;
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d gradient = unit.cwiseProduct(match.gradient);
+  for (const Direction& direction : directions_of(match, params)) {
+    if (!direction.is_seen) continue;
+    const Eigen::Vector3d& v = direction.v;
     ++part.num_observable;
-    step -= v * (v.dot(gradient) / lambda);
-    information +=
-        v * v.transpose() / (1 / lambda + 1);  // the floor's variance is 1 in these units
+    step -= v * (v.dot(gradient) / direction.information);
+    information += v * v.transpose() /
+                   (1 / direction.information + 1);  // the floor's variance is 1 in these units
   }
   part.T_map_base = match.T_map_base.plus(unit.cwiseProduct(step));
   part.information =

@@ -42,6 +42,11 @@ struct ObservableMatch {
   double weakest_information_ratio = 0;
 };
 
+// Prior information, 3x3 in base, order (x_m, y_m, theta_rad), that holds a pose to within the
+// floors along the directions that the scan does not see; zero if it sees all. Requires
+// match.is_usable().
+Eigen::Matrix3d unseen_information(const MatchResult& match, const ObservabilityParams& params);
+
 // Requires match.is_usable().
 ObservableMatch observable_part(const MatchResult& match, const ObservabilityParams& params);
 

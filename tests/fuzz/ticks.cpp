@@ -12,7 +12,7 @@ bool ticks(std::string_view bytes) {
   const auto [toml, log] = split(bytes);
   const auto stated = formats::override_robot(RobotModel{}, toml, "log.robot.toml");
   if (!stated) return false;
-  const auto parsed = formats::parse_ticks(log, "log.dat", stated->robot);
+  const auto parsed = formats::parse_ticks(log, "log.dat", stated->robot, stated->raw.clock);
   if (!parsed) return false;
   settle(*parsed, std::string(toml));
   return true;

@@ -52,7 +52,7 @@ std::string rows(int count) {
 }
 
 TEST(Ticks, ARowIsAReadingOfTheWheelsAndAScan) {
-  const auto log = parse_ticks(rows(3), "a.dat", robot());
+  const auto log = parse_ticks(rows(3), "a.dat", robot(), RawClock::kData);
   ASSERT_TRUE(log.has_value()) << log.error().to_line();
   ASSERT_EQ(log->events.size(), 6U);
   const auto& wheels = std::get<WheelSample>(log->events[4]);
@@ -65,7 +65,7 @@ TEST(Ticks, ARowIsAReadingOfTheWheelsAndAScan) {
 }
 
 TEST(Ticks, BeamsCoverTheRangeInFrontCounterClockwiseFromTheRight) {
-  const auto log = parse_ticks(rows(1), "a.dat", robot());
+  const auto log = parse_ticks(rows(1), "a.dat", robot(), RawClock::kData);
   const auto& scan = std::get<LaserScan>(log->events[1]);
   ASSERT_EQ(scan.num_beams(), 543U);  // 70 to 612
   EXPECT_EQ(scan.ranges_m.front(), 1.070F);
@@ -83,7 +83,7 @@ TEST(Ticks, ZeroCodesAndTooLongRangesAreNoReturnAndCounted) {
   tokens[24 + 103] = "4000";
   tokens[24 + 104] = "4001";
   tokens[24 + 20] = "0";  // not among the beams that are used
-  const auto log = parse_ticks(row(tokens), "a.dat", robot());
+  const auto log = parse_ticks(row(tokens), "a.dat", robot(), RawClock::kData);
   const auto& scan = std::get<LaserScan>(log->events[1]);
   EXPECT_EQ(scan.is_valid[30], 0);
   EXPECT_EQ(scan.is_valid[31], 0);
@@ -97,13 +97,58 @@ TEST(Ticks, ZeroCodesAndTooLongRangesAreNoReturnAndCounted) {
 TEST(Ticks, TheCalibratedOffsetMovesTheScansBeforeTheirRows) {
   RobotModel late = robot();
   late.lidar.time_offset_s = 0.15;
-  const auto log = parse_ticks(rows(3), "a.dat", late);
+  const auto log = parse_ticks(rows(3), "a.dat", late, RawClock::kData);
   ASSERT_TRUE(log.has_value());
   EXPECT_EQ(stamp_of(log->events[0]).nanoseconds, 360'850'000'000);
   EXPECT_TRUE(std::holds_alternative<LaserScan>(log->events[0]));
   EXPECT_TRUE(std::holds_alternative<LaserScan>(log->events[1]));
   EXPECT_TRUE(std::holds_alternative<WheelSample>(log->events[2]));
   EXPECT_EQ(log->notes.size(), 1U);
+}
+
+// Rows that the program came to 20 ms late, every second of them.
+std::string late_rows(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    Tokens tokens = row_tokens(i);
+    if (i % 2 == 1) tokens[0] = std::to_string(361'000'000 + 100'000 * i + 20'000);
+    text += row(tokens);
+  }
+  return text;
+}
+
+TEST(Ticks, AtAScanRateTheScansAreEvenAndTheWheelsKeepTheirStamps) {
+  const auto log = parse_ticks(late_rows(101), "a.dat", robot(), RawClock::kScanRate);
+  ASSERT_TRUE(log.has_value()) << log.error().to_line();
+  Timestamp last;
+  int num_scans = 0, num_wheels = 0;
+  for (const SensorEvent& event : log->events) {
+    if (std::holds_alternative<WheelSample>(event)) {
+      const std::int64_t late_ns = num_wheels % 2 == 1 ? 20'000'000 : 0;
+      EXPECT_EQ(stamp_of(event).nanoseconds,
+                361'000'000'000 + 100'000'000LL * num_wheels + late_ns);
+      ++num_wheels;
+      continue;
+    }
+    if (num_scans > 0) EXPECT_NEAR(seconds_between(last, stamp_of(event)), 0.1, 1e-8);
+    last = stamp_of(event);
+    ++num_scans;
+  }
+  EXPECT_EQ(num_scans, 101);
+  EXPECT_EQ(num_wheels, 101);
+  ASSERT_EQ(log->notes.size(), 1U);
+  EXPECT_EQ(log->notes[0],
+            "scans put onto a constant rate of one in 0.10000 s, moved by 0.010 s at most");
+}
+
+TEST(Ticks, ARowFarOffTheScanRateIsRefusedWithItsLine) {
+  std::string text = rows(30);
+  Tokens late = row_tokens(30);
+  late[0] = std::to_string(361'000'000 + 100'000 * 30 + 900'000);
+  const auto log = parse_ticks(text + row(late), "a.dat", robot(), RawClock::kScanRate);
+  ASSERT_FALSE(log.has_value());
+  EXPECT_NE(log.error().to_line().find("a.dat:31"), std::string::npos) << log.error().to_line();
+  EXPECT_NE(log.error().to_line().find("constant rate"), std::string::npos);
 }
 
 TEST(Ticks, AnswersEachDefectWithItsLine) {
@@ -126,7 +171,7 @@ TEST(Ticks, AnswersEachDefectWithItsLine) {
       {std::string(100, '\x01') + "\n", "1 tokens"},
   };
   for (const auto& [line, message] : defects) {
-    const auto log = parse_ticks(rows(1) + line, "a.dat", robot());
+    const auto log = parse_ticks(rows(1) + line, "a.dat", robot(), RawClock::kData);
     ASSERT_FALSE(log.has_value()) << message;
     const std::string text = log.error().to_line();
     EXPECT_NE(text.find("a.dat:2: "), std::string::npos) << text;
@@ -136,7 +181,7 @@ TEST(Ticks, AnswersEachDefectWithItsLine) {
 }
 
 TEST(Ticks, ALineWithoutEndIsAnErrorNotAHang) {
-  const auto log = parse_ticks(std::string(4'000'000, '1'), "a.dat", robot());
+  const auto log = parse_ticks(std::string(4'000'000, '1'), "a.dat", robot(), RawClock::kData);
   ASSERT_FALSE(log.has_value());
   EXPECT_LT(log.error().to_line().size(), 200U);
 }
@@ -144,7 +189,7 @@ TEST(Ticks, ALineWithoutEndIsAnErrorNotAHang) {
 TEST(Ticks, AFileCutAnywhereIsAnErrorOrShorter) {
   const std::string text = rows(3);
   for (std::size_t length = 1; length < text.size() - 2; length += 97) {
-    const auto log = parse_ticks(text.substr(0, length), "a.dat", robot());
+    const auto log = parse_ticks(text.substr(0, length), "a.dat", robot(), RawClock::kData);
     if (log) {
       EXPECT_LT(log->events.size(), 6U) << length;
     }
