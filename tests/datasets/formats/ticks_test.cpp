@@ -130,7 +130,9 @@ TEST(Ticks, AtAScanRateTheScansAreEvenAndTheWheelsKeepTheirStamps) {
       ++num_wheels;
       continue;
     }
-    if (num_scans > 0) EXPECT_NEAR(seconds_between(last, stamp_of(event)), 0.1, 1e-8);
+    if (num_scans > 0) {
+      EXPECT_NEAR(seconds_between(last, stamp_of(event)), 0.1, 1e-8);
+    }
     last = stamp_of(event);
     ++num_scans;
   }
