@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "slam/motion/deskew.hpp"
 #include "tests/support/synthetic_scan.hpp"
 
@@ -58,6 +61,42 @@ TEST_F(ScanTrackerTest, TheWheelsDoNotAnswerForTheTurnOfTheGyro) {
   EXPECT_LT(*tracked.wheel_chi2, 14);
   // They do for their translation.
   EXPECT_GT(*track(0.2, 0.03, true).wheel_chi2, 50);
+}
+
+// How far along a corridor the match of a scan lies from its prediction, at most, in ten scans.
+double slide_along_corridor_m(int hold_unseen_passes) {
+  FusionParams params;
+  params.hold_unseen_passes = hold_unseen_passes;
+  Rng rng(5);
+  const auto points_at = [&rng](const Pose2& T_corridor_base) {
+    return motion::deskewed_points(
+        testing::scan_of(testing::corridor_walls(), T_corridor_base, 4, 0.02, rng, Timestamp{}),
+        Eigen::Vector3d::Zero(), 30);
+  };
+  Submap submap(0, params);
+  for (int i = 0; i < 10; ++i) {
+    const Pose2 T_corridor_base(0.2 * i, 0, 0);
+    submap.insert(static_cast<std::uint32_t>(i), T_corridor_base, points_at(T_corridor_base));
+  }
+  double slide_m = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Pose2 T_corridor_last(1.5 + 0.05 * i, 0, 0);
+    Prediction prediction;
+    prediction.T_last_now = Pose2(0.1, 0, 0.05);  // a turn that the scan corrects
+    prediction.covariance = Eigen::Vector3d(1e-2, 1e-4, 1e-2).asDiagonal();
+    const TrackedScan tracked =
+        track_scan(submap, points_at(T_corridor_last * Pose2(0.1, 0, 0)), T_corridor_last,
+                   prediction, RobotModel{}, params, false);
+    if (!tracked.match || tracked.match->num_observable != 2) return 1;
+    const double predicted_m = (T_corridor_last * prediction.T_last_now).x_m();
+    slide_m = std::max(slide_m, std::abs(tracked.match->T_map_base.x_m() - predicted_m));
+  }
+  return slide_m;
+}
+
+TEST(ScanTracker, AMatchStaysAtThePredictionAlongWhatItDoesNotSee) {
+  EXPECT_LT(slide_along_corridor_m(2), 0.002);
+  EXPECT_GT(slide_along_corridor_m(0), 0.004);
 }
 
 }  // namespace

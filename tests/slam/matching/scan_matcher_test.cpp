@@ -172,5 +172,17 @@ TEST(ObservablePart, InformationThatNoisyNormalsExplainDoesNotCount) {
   EXPECT_EQ(observable_part(match, {}).num_observable, 2);
 }
 
+TEST(UnseenInformation, HoldsToTheFloorWhatIsNotSeenAndNothingElse) {
+  MatchResult match;
+  match.status = MatchStatus::kConverged;
+  match.information = Eigen::Vector3d(0, 1e5, 1e5).asDiagonal();
+  const ObservabilityParams params;
+  const double held = 1 / (params.translation_floor_m * params.translation_floor_m);
+  const Eigen::Matrix3d expected = Eigen::Vector3d(held, 0, 0).asDiagonal();
+  EXPECT_LT((unseen_information(match, params) - expected).norm(), 1e-9 * held);
+  match.information(0, 0) = 1e5;
+  EXPECT_TRUE(unseen_information(match, params).isZero());
+}
+
 }  // namespace
 }  // namespace corridor::matching
