@@ -30,14 +30,24 @@ constexpr std::array<std::string_view, 4> kPaperSystems = {"gmapping", "karto", 
                                                            "fusion"};
 
 struct Panel {
+  std::string system;
   std::string label;    // shortened where it does not fit
   std::string outcome;  // never shortened: "*: 0.021 m, diverged"
   Scene scene;
 };
 
-bool is_shown(const Series& series, bool has_truth) {
-  return !has_truth || std::find(kPaperSystems.begin(), kPaperSystems.end(), series.system) !=
-                           kPaperSystems.end();
+bool has_walls(const std::vector<Panel>& panels) {
+  return std::any_of(panels.begin(), panels.end(),
+                     [](const Panel& panel) { return panel.scene.world.has_value(); });
+}
+
+// In simulated worlds those that the paper compares; of a recording whatever ran.
+void keep_shown(std::vector<Panel>& panels) {
+  if (!has_walls(panels)) return;
+  std::erase_if(panels, [](const Panel& panel) {
+    return std::find(kPaperSystems.begin(), kPaperSystems.end(), panel.system) ==
+           kPaperSystems.end();
+  });
 }
 
 // Three panels share a row: the caption says what the length and the star mean.
@@ -57,7 +67,6 @@ std::vector<Panel> load_panels(const Cases& cases, const std::string& dataset,
                                std::vector<std::string>& problems) {
   std::vector<Panel> panels;
   for (const Series& series : cases.series()) {
-    if (!is_shown(series, representative.has_value())) continue;
     const std::vector<const Case*> all = cases.of(dataset, series);
     const Case* entry = representative ? case_in_world(cases, representative->world, series)
                         : all.empty()  ? nullptr
@@ -65,8 +74,9 @@ std::vector<Panel> load_panels(const Cases& cases, const std::string& dataset,
     if (entry == nullptr) continue;
     Scene scene = load_scene(*entry, problems);
     const std::string outcome = outcome_of(*entry, scene);
-    panels.push_back({cases.label(series), outcome, std::move(scene)});
+    panels.push_back({series.system, cases.label(series), outcome, std::move(scene)});
   }
+  keep_shown(panels);
   return panels;
 }
 
@@ -95,15 +105,13 @@ Bounds panel_bounds(const Panel& panel) {
 std::vector<Bounds> all_bounds(const std::vector<Panel>& panels) {
   std::vector<Bounds> bounds;
   Bounds common;
-  bool has_walls = false;
   for (const Panel& panel : panels) {
     bounds.push_back(panel_bounds(panel));
-    has_walls = has_walls || panel.scene.world.has_value();
     if (bounds.back().is_empty()) continue;
     common.include(bounds.back().min_m);
     common.include(bounds.back().max_m);
   }
-  if (has_walls) std::fill(bounds.begin(), bounds.end(), common);
+  if (has_walls(panels)) std::fill(bounds.begin(), bounds.end(), common);
   return bounds;
 }
 
@@ -150,9 +158,6 @@ std::optional<Figure> map_figure(const Cases& cases, const std::string& dataset,
   const double width_px = (kWidth_px - (num_columns + 1) * kGap_px) / num_columns;
   const double height_px = width_px * aspect_ratio(bounds);
   const double row_px = height_px + kHeading_px + kGap_px;
-  const bool has_walls = std::any_of(panels.begin(), panels.end(), [](const Panel& panel) {
-    return panel.scene.world.has_value();
-  });
   Svg svg("maps-" + reports::file_name_from(dataset), kWidth_px, num_rows * row_px + kGap_px,
           fmt::format("Maps of {}", dataset),
           fmt::format("Occupancy maps of {} systems side by side", panels.size()));
@@ -166,7 +171,7 @@ std::optional<Figure> map_figure(const Cases& cases, const std::string& dataset,
       "Maps of {}: occupied black, free white, unknown grey. Lengths: position RMSE "
       "(mean relation error on recorded data).",
       dataset);
-  if (has_walls) {
+  if (has_walls(panels)) {
     caption += " Lines: the true walls, first poses aligned; one scale for all.";
   } else if (panels.size() > 1) {
     caption +=
