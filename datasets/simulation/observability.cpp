@@ -40,7 +40,7 @@ void DegenerateIntervals::add(Timestamp stamp, std::optional<double> direction_r
   }
   const double stamp_s = to_seconds(stamp);
   if (is_open_ &&
-      line_angle_between(intervals_.back().direction_rad, *direction_rad) < kSameDirection_rad) {
+      line_angle_between(*intervals_.back().direction_rad, *direction_rad) < kSameDirection_rad) {
     intervals_.back().end_s = stamp_s;
   } else {
     intervals_.push_back({stamp_s, stamp_s, *direction_rad});

@@ -153,7 +153,7 @@ TEST(TracedWorld, TurnedCorridorIsDegenerateAlongItselfAtTheSameTimes) {
     EXPECT_NEAR(found.begin_s, expected.begin_s, 0.4);
     EXPECT_NEAR(found.end_s, expected.end_s, 0.4);
     const double degree_rad = std::numbers::pi / 180;
-    EXPECT_NEAR(found.direction_rad, turned_rad, degree_rad);
+    EXPECT_NEAR(found.direction_rad.value(), turned_rad, degree_rad);
     // What the beams hit in the middle of it are two walls along it.
     const LidarModel lidar(scenario.world, scenario.lidar);
     const Pose2 middle(10 * std::cos(turned_rad), 10 * std::sin(turned_rad), turned_rad);
