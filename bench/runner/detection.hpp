@@ -11,7 +11,8 @@
 namespace corridor::runner {
 
 // A scan's flag speaks of the time since the scan before. A flag is true if a slip (or a degenerate
-// interval) overlaps that time.
+// interval) overlaps that time. Which direction is free is not asked: a flag names none, and a scan
+// that sees nothing is as degenerate as one along a corridor.
 //   precision = true alarms / alarms            null without alarms
 //   recall    = scans noticed / scans affected  null where nothing was to be noticed
 //   latency   = mean time from a slip's begin to its first alarm, over slips noticed before their

@@ -29,8 +29,9 @@ struct BeamHit {
 // One sweep without any error, per beam.
 struct Sweep {
   std::vector<std::optional<BeamHit>> hits;  // of the beam's middle; nullopt: nothing that returns
-  std::vector<double> ranges_m;              // of the surface that fills most of it; 0 = no return
-  std::vector<double> other_ranges_m;        // where it meets two surfaces, of the other; else 0
+  std::vector<double> ranges_m;  // to the middle of what most of it meets; 0 = no return
+  // Where a gap in depth parts what a beam with a width meets, to the second; else 0.
+  std::vector<double> other_ranges_m;
 };
 
 class LidarModel {
@@ -48,13 +49,21 @@ class LidarModel {
   [[nodiscard]] LaserScan measure(const Sweep& sweep, const Rng& rng) const;
 
  private:
-  [[nodiscard]] std::optional<BeamHit> meet(const Eigen::Vector2d& origin_m, double direction_rad,
-                                            std::span<const Person> people) const;
-  struct Ranges {
-    double main_m = 0, other_m = 0;
+  struct RayEnd {
+    BeamHit hit;
+    std::size_t surface_index = 0;  // as World counts them; people are numbered after them
+    bool is_returned = true;
   };
-  [[nodiscard]] Ranges across_width(const Eigen::Vector2d& origin_m, double direction_rad,
-                                    std::span<const Person> people) const;
+  // What a ray ends on within limit_m, whether it returns from there or not.
+  [[nodiscard]] std::optional<RayEnd> meet(const Eigen::Vector2d& origin_m, double direction_rad,
+                                           double limit_m, std::span<const Person> people) const;
+  struct Beam {
+    std::optional<BeamHit> hit;
+    double range_m = 0, other_range_m = 0;
+  };
+  class WideBeam;
+  [[nodiscard]] Beam beam(const Eigen::Vector2d& origin_m, double direction_rad,
+                          std::span<const Person> people) const;
   [[nodiscard]] double sigma_m(double range_m, const std::optional<BeamHit>& hit) const;
 
   const World& world_;

@@ -18,14 +18,18 @@ namespace corridor::simulation {
 // information sum(n n^T) of its beams, n being the normal of the wall hit: about 4 of 225 beams.
 inline constexpr double kDegenerateShare = 0.02;
 
-// World direction in [0, pi) that the scan leaves free; nullopt if it fixes both. No hit at all
-// leaves everything free and names direction 0. People count for nothing: they do not stay.
-std::optional<double> degenerate_direction_rad(std::span<const std::optional<BeamHit>> hits);
+// What a degenerate scan leaves free: a direction of the world in [0, pi), or, where it hits no
+// wall at all, every one, for which none is named.
+struct FreeDirection {
+  std::optional<double> direction_rad;
+};
+// nullopt if the scan is not degenerate. People count for nothing: they do not stay.
+std::optional<FreeDirection> free_direction(std::span<const std::optional<BeamHit>> hits);
 
-// Joins consecutive scans that leave the same direction free (within one degree).
+// Joins consecutive scans that leave the same direction free (within one degree), or every one.
 class DegenerateIntervals {
  public:
-  void add(Timestamp stamp, std::optional<double> direction_rad);
+  void add(Timestamp stamp, const std::optional<FreeDirection>& free);
   [[nodiscard]] const std::vector<DegenerateInterval>& intervals() const { return intervals_; }
 
  private:

@@ -74,7 +74,7 @@ RobotModel nominal_robot(const Scenario& scenario) {
       scenario.wheels.noise_ratio * std::sqrt(speed_mps / scenario.imu.rate_hz);
   robot.lidar.range_min_m = scenario.lidar.range_min_m;
   robot.lidar.range_max_m = scenario.lidar.range_max_m;
-  robot.lidar.range_sigma_m = scenario.lidar.range_sigma_m;
+  robot.lidar.range_sigma_m = stated_range_sigma_m(scenario.lidar);
   robot.lidar.T_base_lidar = T_base_lidar(scenario.lidar);
   robot.lidar.scan_duration_s = scenario.lidar.scan_duration_s;
   robot.lidar.time_offset_s = scenario.lidar.time_offset_s;

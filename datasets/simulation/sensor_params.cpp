@@ -2,10 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace corridor::simulation {
+namespace {
+
+// What a beam meets indoors, however far the sensor sees: the root mean square of the ranges of the
+// rplidar-a1, which sees 12 m, is 3.6 to 3.8 m in the shipped corridors.
+constexpr double kTypicalRange_m = 4;
+constexpr double kTypicalIncidence_rad = std::numbers::pi / 4;
+
+}  // namespace
 
 std::vector<std::string> LidarParams::relations() const {
   std::vector<std::string> found;
@@ -22,6 +31,13 @@ std::vector<std::string> LidarParams::relations() const {
 
 Pose2 T_base_lidar(const LidarParams& params) {
   return {params.x_m, params.y_m, params.yaw_deg * (std::numbers::pi / 180)};
+}
+
+double stated_range_sigma_m(const LidarParams& params) {
+  const double range_m = std::min(params.range_max_m / 2, kTypicalRange_m);
+  const double rounding_m = params.range_step_m / std::sqrt(12.0);  // uniform over a step
+  return std::hypot(std::hypot(params.range_sigma_m, params.range_sigma_ratio * range_m),
+                    params.range_sigma_incidence_m * std::tan(kTypicalIncidence_rad), rounding_m);
 }
 
 // A reading is the mean over its sampling interval: N / sqrt(interval).

@@ -95,6 +95,13 @@ struct LidarParams {
 // Nominal mounting.
 Pose2 T_base_lidar(const LidarParams& params);
 
+// One figure for all that spreads the ranges of plain surfaces: what a log states as
+// lidar.range_sigma_m. The root of the sum of squares of range_sigma_m, of range_sigma_ratio at
+// half of range_max_m but at most at 4 m, of range_sigma_incidence_m at 45 degrees, and of
+// range_step_m / sqrt(12). Without the last three it is range_sigma_m. Mixed pixels and motion
+// during the sweep are no part of it.
+double stated_range_sigma_m(const LidarParams& params);
+
 // Wheel encoders. recorded path = true path of the turning wheel x scale x (1 + white noise), in
 // ticks. left scale = 1 + e + u, right scale = 1 + e - u, and the true track is
 // track_m x (1 + t), constant per log.

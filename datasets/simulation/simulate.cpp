@@ -116,7 +116,7 @@ class Recorder {
     LaserScan scan = lidar_.measure(sweep, rng_.stream("lidar").stream(std::uint64_t{scan_index}));
     scan.stamp = *stamp;
     add(std::move(scan));
-    degenerate_.add(*stamp, degenerate_direction_rad(sweep.hits));
+    degenerate_.add(*stamp, free_direction(sweep.hits));
     const bool is_later = simulated_.log.truth->append({*stamp, T_world_base, std::nullopt});
     CORRIDOR_ENSURE(is_later);
   }

@@ -70,12 +70,20 @@ struct SlipRow {
   }
 };
 
-struct DegenerateRow {
+struct BlindRow {
   DegenerateInterval interval;
   static void visit(auto& p, auto&& v) {
     v(ParamInfo{"begin_s", "s", "first scan"}, p.interval.begin_s);
     v(ParamInfo{"end_s", "s", "last scan"}, p.interval.end_s);
-    v(ParamInfo{"direction_rad", "rad", "free direction"}, p.interval.direction_rad);
+  }
+};
+
+struct DegenerateRow {
+  DegenerateInterval interval;
+  static void visit(auto& p, auto&& v) {
+    BlindRow::visit(p, v);
+    if (!p.interval.direction_rad) p.interval.direction_rad.emplace();
+    v(ParamInfo{"direction_rad", "rad", "free direction"}, *p.interval.direction_rad);
   }
 };
 
@@ -93,6 +101,16 @@ std::string rows_text(std::string_view key, const auto& intervals) {
     separator = ", ";
   }
   return text + "]\n";
+}
+
+// The list of blind scans is there only where there are some.
+std::string degenerate_text(const std::vector<DegenerateInterval>& intervals) {
+  std::vector<DegenerateInterval> directed, blind;
+  for (const DegenerateInterval& interval : intervals) {
+    (interval.direction_rad ? directed : blind).push_back(interval);
+  }
+  return rows_text<DegenerateRow>("degenerate", directed) +
+         (blind.empty() ? "" : rows_text<BlindRow>("blind", blind));
 }
 
 template <class Table>
@@ -130,6 +148,11 @@ void take_rows(toml::table& document, std::string_view section, std::string_view
   table->erase(key);
 }
 
+void sort_by_begin(auto& intervals) {
+  std::sort(intervals.begin(), intervals.end(),
+            [](const auto& a, const auto& b) { return a.begin_s < b.begin_s; });
+}
+
 template <class Table>
 Table read_section(const toml::table& document, std::string_view section,
                    std::vector<TomlProblem>& problems) {
@@ -159,7 +182,7 @@ std::string truth_toml(const SimulationTruth& truth) {
       table_text("imu",
                  ImuTable{imu.gyro_bias_radps, imu.accel_bias_x_mps2, imu.accel_bias_y_mps2}) +
       table_text("lidar", LidarTable{truth.range_max_m, truth.range_sigma_m});
-  if (truth.degenerate) text += rows_text<DegenerateRow>("degenerate", *truth.degenerate);
+  if (truth.degenerate) text += degenerate_text(*truth.degenerate);
   return text + table_text("errors",
                            ErrorsTable{truth.wheels.track_ratio, imu.gyro_scale, imu.accel_scale_x,
                                        imu.accel_scale_y, imu.misalignment_rad,
@@ -172,9 +195,11 @@ Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
   std::vector<TomlProblem> problems;
   SimulationTruth truth;
   const toml::table* lidar_table = document->get_as<toml::table>("lidar");
-  if (lidar_table != nullptr && lidar_table->contains("degenerate")) truth.degenerate.emplace();
-  if (truth.degenerate) {
+  if (lidar_table != nullptr && lidar_table->contains("degenerate")) {
+    truth.degenerate.emplace();
     take_rows<DegenerateRow>(*document, "lidar", "degenerate", *truth.degenerate, problems);
+    take_rows<BlindRow>(*document, "lidar", "blind", *truth.degenerate, problems);
+    sort_by_begin(*truth.degenerate);
   }
   take_rows<SlipRow>(*document, "wheels", "slips", truth.slips, problems);
   const std::size_t num_events = truth.slips.size();
@@ -182,8 +207,7 @@ Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
   for (std::size_t i = num_events; i < truth.slips.size(); ++i) {
     truth.slips[i].cause = SlipCause::kGrip;
   }
-  std::sort(truth.slips.begin(), truth.slips.end(),
-            [](const SlipInterval& a, const SlipInterval& b) { return a.begin_s < b.begin_s; });
+  sort_by_begin(truth.slips);
 
   if (const toml::table* world = document->get_as<toml::table>("world")) {
     truth.world = read_world_table(*world, problems);

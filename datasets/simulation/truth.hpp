@@ -30,11 +30,12 @@ struct SlipInterval {
 };
 
 // Scans from begin_s to end_s (stamps, both included) see walls of one direction only: they say
-// nothing about the position along direction_rad (world frame, in [0, pi)).
+// nothing about the position along direction_rad (world frame, in [0, pi)); or, without a
+// direction, they see no wall at all and say nothing about any.
 struct DegenerateInterval {
   double begin_s = 0;
   double end_s = 0;
-  double direction_rad = 0;
+  std::optional<double> direction_rad;
 };
 
 struct SimulationTruth {
@@ -47,14 +48,15 @@ struct SimulationTruth {
   double imu_time_offset_s = 0;
   double range_max_m = 0;
   double range_sigma_m = 0;
-  // nullopt where the sidecar does not say; some logs come from other simulators.
+  // In order; nullopt where the sidecar does not say; some logs come from other simulators.
   std::optional<std::vector<DegenerateInterval>> degenerate;
 };
 
 // The text of LOG.truth.toml.
 std::string truth_toml(const SimulationTruth& truth);
 
-// Reads a LOG.truth.toml; unknown keys and missing ones (other than [lidar] degenerate) are errors.
+// Reads a LOG.truth.toml; unknown keys and missing ones are errors, but for [lidar]
+// degenerate and blind: the degenerate intervals with a direction and those without.
 Result<SimulationTruth> read_truth(const std::filesystem::path& path);
 
 }  // namespace corridor::simulation

@@ -41,8 +41,8 @@ std::vector<std::vector<Eigen::Vector2d>> outlines_m(const World& world);
 // Requires violations(shape).empty().
 World make_corridor(const CorridorShape& shape);
 
-// Walls along the borders between occupied cells and all others; runs of one direction are one
-// wall. No route.
+// Walls along the borders between occupied cells and all others, straight ones where the borders
+// are the staircases of slanted walls (map_borders.hpp). No route.
 World traced_world(const GridMap& map);
 
 // Everything that makes a world unfit: surfaces without length, materials out of range, coordinates

@@ -59,5 +59,18 @@ TEST(Detection, JudgesDegeneracyOnlyWhereTheTruthSays) {
   EXPECT_DOUBLE_EQ(result.degeneracy_recall.value(), 1.0);
 }
 
+TEST(Detection, CountsScansThatSeeNothingAsDegenerate) {
+  std::vector<HealthSample> health(2);
+  for (std::size_t i = 0; i < health.size(); ++i) {
+    health[i].stamp = timestamp_from_seconds(static_cast<double>(i + 1));
+    health[i].is_degenerate = false;
+  }
+  simulation::SimulationTruth truth;
+  truth.degenerate = {{1.9, 2.0, std::nullopt}};
+  results::RunResult result;
+  score_detection(health, truth, result);
+  EXPECT_DOUBLE_EQ(result.degeneracy_recall.value(), 0.0);
+}
+
 }  // namespace
 }  // namespace corridor::runner

@@ -183,34 +183,6 @@ TEST(LidarNoise, DropsTheStatedShareOfTheBeams) {
   }
 }
 
-// A plate whose edge lies in the middle beam, 2 m away, and a wall behind it, 4 m away.
-TEST(LidarBeamWidth, MixedPixelsLieBetweenTheTwoSurfaces) {
-  const World world = world_of({{{2, 0}, {2, -9}}, {{4, -9}, {4, 9}}});
-  LidarParams params{.num_beams = 5, .field_of_view_deg = 10, .range_sigma_m = 0};
-  params.beam_width_deg = 1;
-  params.mixed_pixel_ratio = 0.4;
-  const LidarModel lidar(world, params);
-  const Sweep sweep = sweep_at(world, params, {});
-  EXPECT_NEAR(sweep.ranges_m[2], 2, 1e-3);
-  EXPECT_NEAR(sweep.other_ranges_m[2], 4, 1e-3);
-  const int num_scans = 4000;
-  std::vector<double> mixed_m;
-  for (std::uint64_t k = 0; k < num_scans; ++k) {
-    const LaserScan scan = lidar.measure(sweep, Rng(1).stream(k));
-    const double range_m = scan.ranges_m[2];
-    EXPECT_GE(range_m, 2 - 1e-3);
-    EXPECT_LE(range_m, 4 + 1e-3);
-    if (range_m > 2.001) mixed_m.push_back(range_m);
-    for (const std::size_t single : {0u, 1u, 3u, 4u}) {  // beams that meet one surface
-      EXPECT_NEAR(scan.ranges_m[single], sweep.hits[single]->range_m, 1e-3);
-    }
-  }
-  EXPECT_NEAR(static_cast<double>(mixed_m.size()) / num_scans, 0.4,
-              5 * std::sqrt(0.4 * 0.6 / num_scans));
-  const double sigma_m = 2 / std::sqrt(12.0);  // uniform from 2 m to 4 m
-  EXPECT_NEAR(mean(mixed_m), 3, 5 * sigma_m / std::sqrt(static_cast<double>(mixed_m.size())));
-}
-
 // A pane 2 m ahead and a wall 3 m ahead, both across the middle of the view.
 TEST(LidarMaterials, GlassIsSeenSquarelyAndTheWallBehindItObliquely) {
   World world = world_of({{{2, -20}, {2, 20}}, {{3, -20}, {3, 20}}});

@@ -23,36 +23,58 @@ Hits hits_on(std::initializer_list<std::pair<std::size_t, int>> wall_and_count) 
 }
 
 TEST(DegenerateDirection, IsThatOfTheOnlyWallsSeen) {
-  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{0, 50}})), 0, 1e-9);
-  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{1, 50}})), std::numbers::pi / 2, 1e-9);
-  EXPECT_NEAR(*degenerate_direction_rad(hits_on({{2, 50}})), std::numbers::pi / 4, 1e-9);
+  EXPECT_NEAR(*free_direction(hits_on({{0, 50}}))->direction_rad, 0, 1e-9);
+  EXPECT_NEAR(*free_direction(hits_on({{1, 50}}))->direction_rad, std::numbers::pi / 2, 1e-9);
+  EXPECT_NEAR(*free_direction(hits_on({{2, 50}}))->direction_rad, std::numbers::pi / 4, 1e-9);
 }
 
 TEST(DegenerateDirection, IsNoneOnceMoreThanTwoPercentOfTheBeamsHitACrossWall) {
-  EXPECT_TRUE(degenerate_direction_rad(hits_on({{0, 99}, {1, 1}})));
-  EXPECT_FALSE(degenerate_direction_rad(hits_on({{0, 97}, {1, 3}})));
-  EXPECT_FALSE(degenerate_direction_rad(hits_on({{0, 50}, {1, 50}})));
+  EXPECT_TRUE(free_direction(hits_on({{0, 99}, {1, 1}})));
+  EXPECT_FALSE(free_direction(hits_on({{0, 97}, {1, 3}})));
+  EXPECT_FALSE(free_direction(hits_on({{0, 50}, {1, 50}})));
 }
 
 TEST(DegenerateDirection, BeamsWithoutReturnSayNothing) {
   Hits hits = hits_on({{0, 97}, {1, 3}});
   hits.insert(hits.end(), 1000, std::nullopt);
-  EXPECT_FALSE(degenerate_direction_rad(hits));
-  EXPECT_TRUE(degenerate_direction_rad(Hits(10, std::nullopt)));
+  EXPECT_FALSE(free_direction(hits));
+}
+
+TEST(DegenerateDirection, IsNoneInParticularWhereNoWallIsHit) {
+  const Hits person(5, BeamHit{.range_m = 1.0, .is_person = true});
+  for (const Hits& hits : {Hits(10, std::nullopt), person}) {
+    const auto free = free_direction(hits);
+    ASSERT_TRUE(free);
+    EXPECT_FALSE(free->direction_rad);
+  }
 }
 
 TEST(DegenerateIntervals, JoinConsecutiveScansOfOneDirection) {
   DegenerateIntervals intervals;
   const double pi = std::numbers::pi;
-  const std::optional<double> directions_rad[] = {std::nullopt, 0.0,          pi - 0.001, 0.001,
-                                                  pi / 2,       std::nullopt, pi / 2};
-  for (int i = 0; i < 7; ++i) intervals.add(timestamp_from_seconds(i), directions_rad[i]);
-  ASSERT_EQ(intervals.intervals().size(), 3u);
+  const FreeDirection every;
+  const std::optional<FreeDirection> free[] = {std::nullopt,
+                                               FreeDirection{0.0},
+                                               FreeDirection{pi - 0.001},
+                                               FreeDirection{0.001},
+                                               FreeDirection{pi / 2},
+                                               std::nullopt,
+                                               FreeDirection{pi / 2},
+                                               every,
+                                               every,
+                                               FreeDirection{pi / 2},
+                                               std::nullopt};
+  for (int i = 0; i < 11; ++i) intervals.add(timestamp_from_seconds(i), free[i]);
+  ASSERT_EQ(intervals.intervals().size(), 5u);
   EXPECT_EQ(intervals.intervals()[0].begin_s, 1);
   EXPECT_EQ(intervals.intervals()[0].end_s, 3);
   EXPECT_EQ(intervals.intervals()[1].begin_s, 4);
   EXPECT_EQ(intervals.intervals()[1].end_s, 4);
   EXPECT_EQ(intervals.intervals()[2].begin_s, 6);
+  EXPECT_EQ(intervals.intervals()[3].begin_s, 7);
+  EXPECT_EQ(intervals.intervals()[3].end_s, 8);
+  EXPECT_FALSE(intervals.intervals()[3].direction_rad);
+  EXPECT_EQ(intervals.intervals()[4].begin_s, 9);
 }
 
 }  // namespace

@@ -249,11 +249,12 @@ TEST(Simulate, TruthNamesTheArmsAsDegenerateWhereTheLidarSeesNoEnd) {
   for (const DegenerateInterval& interval : *simulated.truth.degenerate) {
     const Pose2 begin = *simulated.log.truth->interpolate(timestamp_from_seconds(interval.begin_s));
     const Pose2 end = *simulated.log.truth->interpolate(timestamp_from_seconds(interval.end_s));
-    if (interval.direction_rad < 0.1) {  // first arm: away from the left end and from the corner
+    ASSERT_TRUE(interval.direction_rad);
+    if (*interval.direction_rad < 0.1) {  // first arm: away from the left end and from the corner
       EXPECT_GT(begin.x_m(), 3.5);
       EXPECT_LT(end.x_m(), 16.5);
     } else {
-      EXPECT_NEAR(interval.direction_rad, std::numbers::pi / 2, 0.02);
+      EXPECT_NEAR(*interval.direction_rad, std::numbers::pi / 2, 0.02);
       EXPECT_GT(begin.y_m(), 4.5);  // the range away from the lower outer wall
       EXPECT_LT(end.y_m(), 11);
     }

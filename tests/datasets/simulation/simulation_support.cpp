@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "datasets/formats/log_io.hpp"
+#include "tests/support/scratch_folder.hpp"
+
 namespace corridor::simulation::testing {
 namespace {
 
@@ -153,6 +156,33 @@ Scenario shipped_scenario(const std::string& name) {
   const auto scenario = read_scenario(*path);
   if (!scenario) throw std::runtime_error(scenario.error().to_line());
   return *scenario;
+}
+
+SensorLog through_a_file(const SensorLog& log) {
+  const ::corridor::testing::ScratchFolder folder;
+  const auto path = folder / "log.rawlog";
+  if (const auto written = formats::write_log(log, path); !written) {
+    throw std::runtime_error(written.error().to_line());
+  }
+  auto read = formats::read_log(path);
+  if (!read) throw std::runtime_error(read.error().to_line());
+  return std::move(*read);
+}
+
+std::vector<LoggedBeam> logged_beams(const SensorLog& log) {
+  std::vector<LoggedBeam> beams;
+  std::size_t scan_index = 0;
+  for (const SensorEvent& event : log.events) {
+    const auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    const Pose2 T_world_base = (*log.truth)[scan_index++].T_map_base;
+    const auto num_steps = static_cast<double>(scan->num_beams() - 1);
+    for (std::size_t i = 0; i < scan->num_beams(); ++i) {
+      beams.push_back({T_world_base, i, scan->angle_rad(i), static_cast<double>(i) / num_steps,
+                       scan->is_valid[i] != 0, scan->ranges_m[i]});
+    }
+  }
+  return beams;
 }
 
 LogFigures figures_of(const SensorLog& log) {

@@ -42,6 +42,21 @@ double median(std::vector<double> values);
 // A scenario file of datasets/scenarios/, which must be readable.
 Scenario shipped_scenario(const std::string& name);
 
+// The log as its reader gets it: written into a rawlog of its own and read back.
+SensorLog through_a_file(const SensorLog& log);
+
+// What a log says of one beam, and where the robot was.
+struct LoggedBeam {
+  Pose2 T_world_base;  // at the scan's stamp
+  std::size_t index = 0;
+  double angle_rad = 0;    // in the LiDAR's frame
+  double sweep_share = 0;  // of the time from the first beam to the last
+  bool is_valid = false;
+  double range_m = 0;
+};
+// Of all scans in order. Requires a true pose per scan.
+std::vector<LoggedBeam> logged_beams(const SensorLog& log);
+
 // Figures of a log that need nothing but the log and its truth at the scans.
 struct LogFigures {
   double duration_s = 0;

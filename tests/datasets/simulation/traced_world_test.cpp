@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "datasets/formats/maps/ros_map.hpp"
+#include "datasets/simulation/lidar_model.hpp"
 #include "datasets/simulation/ray_casting.hpp"
 #include "datasets/simulation/simulate.hpp"
 #include "datasets/simulation/world.hpp"
@@ -105,6 +108,60 @@ TEST(TracedWorld, OfARosMapCarriesAScenario) {
       const double off_m = std::min({std::abs(end_m.x()), std::abs(end_m.x() - 14),
                                      std::abs(end_m.y()), std::abs(end_m.y() - 4)});
       EXPECT_LT(off_m, 1e-6);
+    }
+  }
+}
+
+// A corridor of 20 m x 3 m with walls of 0.3 m, turned about the origin, as a map of 5 cm cells.
+Scenario turned_corridor(double turned_rad) {
+  const double resolution_m = 0.05;
+  const int side_cells = 640;
+  GridMap map(resolution_m, {-6, -6}, side_cells, side_cells);
+  const Eigen::Vector2d along(std::cos(turned_rad), std::sin(turned_rad));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const auto is_within = [&](const Eigen::Vector2d& point_m, double margin_m) {
+    return std::abs(point_m.dot(along) - 10) < 10 + margin_m &&
+           std::abs(point_m.dot(across)) < 1.5 + margin_m;
+  };
+  for (int row = 0; row < side_cells; ++row) {
+    for (int column = 0; column < side_cells; ++column) {
+      const Eigen::Vector2d centre_m = map.centre_m(column, row);
+      const bool is_wall = is_within(centre_m, 0.3) && !is_within(centre_m, 0);
+      map.at(column, row) = {.log_odds = is_wall ? 3.f : -3.f, .is_observed = true};
+    }
+  }
+  Scenario scenario;
+  scenario.world = traced_world(map);
+  scenario.world.route_m = {2 * along, 18 * along};
+  scenario.lidar.range_sigma_m = 0;
+  return scenario;
+}
+
+TEST(TracedWorld, TurnedCorridorIsDegenerateAlongItselfAtTheSameTimes) {
+  const Simulated straight = simulate(turned_corridor(0), 1);
+  ASSERT_EQ(straight.truth.degenerate->size(), 1u);
+  const DegenerateInterval expected = straight.truth.degenerate->front();
+  EXPECT_GT(expected.end_s - expected.begin_s, 10);
+  for (const double turned_deg : {0.0, 5.0, 20.0, 45.0}) {
+    SCOPED_TRACE(turned_deg);
+    const double turned_rad = turned_deg * std::numbers::pi / 180;
+    const Scenario scenario = turned_corridor(turned_rad);
+    const Simulated turned = simulate(scenario, 1);
+    ASSERT_EQ(turned.truth.degenerate->size(), 1u);
+    const DegenerateInterval found = turned.truth.degenerate->front();
+    // The end walls lie within two cells of one another: 0.2 s of driving, and a scan.
+    EXPECT_NEAR(found.begin_s, expected.begin_s, 0.4);
+    EXPECT_NEAR(found.end_s, expected.end_s, 0.4);
+    const double degree_rad = std::numbers::pi / 180;
+    EXPECT_NEAR(found.direction_rad.value(), turned_rad, degree_rad);
+    // What the beams hit in the middle of it are two walls along it.
+    const LidarModel lidar(scenario.world, scenario.lidar);
+    const Pose2 middle(10 * std::cos(turned_rad), 10 * std::sin(turned_rad), turned_rad);
+    for (const auto& hit : lidar.sweep([&](double) { return middle; }, {}).hits) {
+      if (!hit) continue;
+      EXPECT_LT(
+          std::abs(hit->normal.dot(Eigen::Vector2d(std::cos(turned_rad), std::sin(turned_rad)))),
+          std::sin(degree_rad));
     }
   }
 }

@@ -36,6 +36,26 @@ TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
   EXPECT_EQ(again->degenerate->size(), simulated.truth.degenerate->size());
 }
 
+TEST(Truth, NamesScansThatSeeNothingWithoutADirection) {
+  const ScratchFolder folder;
+  Scenario scenario;  // stands 2 m from every wall or farther
+  scenario.lidar.range_max_m = 1.5;
+  scenario.drive.stand_s = 1;
+  scenario.drive.stays = true;
+  Simulated simulated = simulate(scenario, 1);
+  ASSERT_EQ(simulated.truth.degenerate->size(), 1u);
+  EXPECT_FALSE(simulated.truth.degenerate->front().direction_rad);
+  simulated.truth.degenerate->push_back({2, 3, 0.5});
+  simulated.truth.degenerate->push_back({3.1, 4, std::nullopt});
+  const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
+  ASSERT_TRUE(again) << again.error().to_line();
+  ASSERT_EQ(again->degenerate->size(), 3u);
+  EXPECT_FALSE((*again->degenerate)[0].direction_rad);
+  EXPECT_EQ((*again->degenerate)[0].end_s, simulated.truth.degenerate->front().end_s);
+  EXPECT_EQ((*again->degenerate)[1].direction_rad, 0.5);
+  EXPECT_FALSE((*again->degenerate)[2].direction_rad);
+}
+
 TEST(Truth, IsTheWorldFileOfItsLog) {
   const ScratchFolder folder;
   const Simulated simulated = simulate(shipped_scenario("paper-corridor-vary"), 5);
