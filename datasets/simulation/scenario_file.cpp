@@ -172,7 +172,7 @@ class ScenarioReader {
   // "lidar.range_max_m = 3: expected ..." stands in the line of that key.
   std::uint32_t line_of_violation(std::string_view violation) const {
     const std::size_t point = violation.find('.');
-    const std::size_t space = violation.find(' ');
+    const std::size_t space = violation.find_first_of(" :");
     if (point == std::string_view::npos || space == std::string_view::npos || point > space) {
       return 0;
     }

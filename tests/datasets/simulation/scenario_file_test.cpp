@@ -46,7 +46,7 @@ TEST(ScenarioFiles, EveryShortMemberOfAFamilyGivesALogWithoutDefects) {
       const auto scenario = load_scenario(member);
       ASSERT_TRUE(scenario) << error_of(scenario);
       if (scenario->world.corridor->b_m > 40) continue;
-      const Simulated simulated = simulate(*scenario, 1);
+      const Simulated simulated = simulated_log(*scenario, 1);
       EXPECT_EQ(defects(simulated.log), std::vector<std::string>{}) << member;
       EXPECT_EQ(simulated.log.provenance.notes, std::vector<std::string>{}) << member;
     }
@@ -168,7 +168,7 @@ TEST(SensorPresets, AllCarryAScenario) {
       ASSERT_TRUE(scenario) << error_of(scenario);
       scenario->drive.stays = true;
       scenario->drive.spin_turns = 0.5;
-      EXPECT_EQ(defects(simulate(*scenario, 1).log), std::vector<std::string>{}) << name;
+      EXPECT_EQ(defects(simulated_log(*scenario, 1).log), std::vector<std::string>{}) << name;
     }
   }
 }

@@ -155,6 +155,12 @@ Scenario shipped_scenario(const std::string& name) {
   return *scenario;
 }
 
+Simulated simulated_log(const Scenario& scenario, std::uint64_t seed) {
+  Result<Simulated> simulated = simulate(scenario, seed);
+  if (!simulated) throw std::runtime_error(simulated.error().to_line());
+  return std::move(*simulated);
+}
+
 LogFigures figures_of(const SensorLog& log) {
   std::vector<double> gyro, accel_x, left_m;
   std::vector<Pose2> odometry_at_scans;

@@ -5,6 +5,7 @@
 
 #include "datasets/simulation/robot_drive.hpp"
 #include "datasets/simulation/scenario.hpp"
+#include "datasets/simulation/simulate.hpp"
 #include "datasets/simulation/world.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/core/sensor_log.hpp"
@@ -41,6 +42,9 @@ double median(std::vector<double> values);
 
 // A scenario file of datasets/scenarios/, which must be readable.
 Scenario shipped_scenario(const std::string& name);
+
+// What simulate() gives, which must be a log.
+Simulated simulated_log(const Scenario& scenario, std::uint64_t seed);
 
 // Figures of a log that need nothing but the log and its truth at the scans.
 struct LogFigures {

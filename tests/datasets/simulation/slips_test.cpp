@@ -158,11 +158,11 @@ TEST(GripSlips, ThatMeetAnEventAreLeftToIt) {
 
 TEST(GripSlips, AreWrittenIntoTheTruthOfALog) {
   Scenario scenario = shipped_scenario("paper-corridor-grip");
-  const Simulated simulated = simulate(scenario, 1);
+  const Simulated simulated = simulated_log(scenario, 1);
   EXPECT_TRUE(std::any_of(simulated.truth.slips.begin(), simulated.truth.slips.end(),
                           [](const SlipInterval& s) { return s.cause == SlipCause::kGrip; }));
   scenario.drive.friction_limit_mps2 = 0;
-  EXPECT_TRUE(simulate(scenario, 1).truth.slips.empty());
+  EXPECT_TRUE(simulated_log(scenario, 1).truth.slips.empty());
 }
 
 }  // namespace

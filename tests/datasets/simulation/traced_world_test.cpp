@@ -90,7 +90,7 @@ TEST(TracedWorld, OfARosMapCarriesAScenario) {
                                  "[lidar]\nrange_sigma_m = 0\n");
   const auto scenario = read_scenario(path);
   ASSERT_TRUE(scenario) << scenario.error().to_line();
-  const Simulated simulated = simulate(*scenario, 1);
+  const Simulated simulated = simulated_log(*scenario, 1);
   EXPECT_EQ(defects(simulated.log), std::vector<std::string>{});
   EXPECT_TRUE(simulated.log.provenance.notes.empty());
   // The hall's inside is 14 m x 4 m from (0, 0).

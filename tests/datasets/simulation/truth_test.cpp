@@ -24,7 +24,7 @@ constexpr const char* kForeignTruth =
 
 TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
   const ScratchFolder folder;
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor-slip"), 5);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor-slip"), 5);
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
@@ -38,7 +38,7 @@ TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
 
 TEST(Truth, IsTheWorldFileOfItsLog) {
   const ScratchFolder folder;
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor-vary"), 5);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor-vary"), 5);
   const auto world = read_world(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(world) << world.error().to_line();
   EXPECT_EQ(world->corridor->b_m, simulated.truth.world.corridor->b_m);
@@ -93,7 +93,7 @@ TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
   scenario.drive.friction_limit_mps2 = 0.3;
   scenario.slip.num_slips = 2;
   scenario.imu.time_offset_sigma_s = 0.01;
-  const Simulated simulated = simulate(scenario, 5);
+  const Simulated simulated = simulated_log(scenario, 5);
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
@@ -111,7 +111,7 @@ TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
 
 TEST(Truth, CarriesADrawnWorld) {
   const ScratchFolder folder;
-  const Simulated simulated = simulate(shipped_scenario("clutter"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("clutter"), 1);
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(again->world.walls.size(), simulated.world.walls.size());
