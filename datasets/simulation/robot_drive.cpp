@@ -61,17 +61,40 @@ Command towards(const DriveState& state, const Vector2d& waypoint_m, double crui
                      params.yaw_rate_max_radps)};
 }
 
+// A friction circle: forward and sideways acceleration, as vectors, are at most the floor's grip.
+// The driver keeps to a yaw rate at which cornering takes at most half of the square; braking and
+// setting off get what is left, and wheels that are driven harder slip.
+struct Grip {
+  double limit_mps2;
+  double fastest_mps;  // the robot after this step, at most
+
+  [[nodiscard]] double yaw_rate_max_radps() const {
+    return std::sqrt(0.5) * limit_mps2 / fastest_mps;
+  }
+  [[nodiscard]] double forward_max_mps2(double yaw_rate_radps) const {
+    const double sideways_mps2 = fastest_mps * yaw_rate_radps;
+    return std::sqrt(std::max(0.0, limit_mps2 * limit_mps2 - sideways_mps2 * sideways_mps2));
+  }
+};
+
 // The wheels follow the command, the robot follows its wheels as far as the floor's grip allows.
 DriveState next_state(const DriveState& state, const Command& command, const DriveParams& params,
                       double step_s) {
   DriveState next;
   next.wheel_speed_mps =
       approach(state.wheel_speed_mps, command.speed_mps, params.acceleration_mps2 * step_s);
-  next.speed_mps = params.friction_limit_mps2 > 0 ? approach(state.speed_mps, next.wheel_speed_mps,
-                                                             params.friction_limit_mps2 * step_s)
-                                                  : next.wheel_speed_mps;
-  next.yaw_rate_radps = approach(state.yaw_rate_radps, command.yaw_rate_radps,
-                                 params.yaw_acceleration_radps2 * step_s);
+  const bool is_slippery = params.friction_limit_mps2 > 0;
+  const Grip grip{params.friction_limit_mps2,
+                  state.speed_mps + params.friction_limit_mps2 * step_s};
+  const double wanted_radps = is_slippery
+                                  ? std::clamp(command.yaw_rate_radps, -grip.yaw_rate_max_radps(),
+                                               grip.yaw_rate_max_radps())
+                                  : command.yaw_rate_radps;
+  next.yaw_rate_radps =
+      approach(state.yaw_rate_radps, wanted_radps, params.yaw_acceleration_radps2 * step_s);
+  next.speed_mps = is_slippery ? approach(state.speed_mps, next.wheel_speed_mps,
+                                          grip.forward_max_mps2(next.yaw_rate_radps) * step_s)
+                               : next.wheel_speed_mps;
   const double path_m = 0.5 * (state.speed_mps + next.speed_mps) * step_s;
   const double turn_rad = 0.5 * (state.yaw_rate_radps + next.yaw_rate_radps) * step_s;
   next.T_world_base = state.T_world_base.plus({path_m, 0, turn_rad});

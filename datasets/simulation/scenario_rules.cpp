@@ -54,11 +54,12 @@ std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
   return shapes;
 }
 
-// The path on which the robot comes to rest: its brakes hold no better than the floor.
+// The path on which the robot comes to rest: its brakes hold no better than what the floor gives
+// beside a turn.
 double braking_path_m(const DriveParams& drive) {
   const double braking_mps2 =
       drive.friction_limit_mps2 > 0
-          ? std::min(drive.acceleration_mps2, drive.friction_limit_mps2)
+          ? std::min(drive.acceleration_mps2, std::sqrt(0.5) * drive.friction_limit_mps2)
           : drive.acceleration_mps2;
   return drive.speed_max_mps * drive.speed_max_mps / (2 * braking_mps2);
 }
