@@ -22,6 +22,8 @@ namespace {
 
 // From the base to the nearest wall, anywhere on the true path: half a robot's width.
 constexpr double kLeastRoom_m = 0.2;
+// Of the true biases in the sidecar.
+constexpr double kBiasRate_hz = 1;
 
 World draw_world(const Scenario& scenario, Rng rng) {
   if (!scenario.world.corridor) return scenario.world;
@@ -95,6 +97,7 @@ class Recorder {
     const double rate_hz = scenario_.imu.rate_hz;
     const std::size_t wheel_steps = steps_per_sample(rate_hz, scenario_.wheels.rate_hz);
     const std::size_t scan_steps = steps_per_sample(rate_hz, scenario_.lidar.rate_hz);
+    const std::size_t bias_steps = steps_per_sample(rate_hz, kBiasRate_hz);
     for (std::size_t k = 1; k < drive_.states.size(); ++k) {
       const DriveState& from = drive_.states[k - 1];
       const DriveState& to = drive_.states[k];
@@ -106,6 +109,9 @@ class Recorder {
         if (const auto stamp = wheel_path_.stamp_of(moment)) add(encoders_.sample(*stamp));
       }
       ImuSample reading = imu_.measure(from, to, moment);
+      if (k % bias_steps == 0 && imu_.has_varying_bias()) {
+        simulated_.truth.imu_bias.push_back({to_seconds(moment), imu_.bias()});
+      }
       if (const auto stamp = imu_path_.stamp_of(moment)) {
         reading.stamp = *stamp;
         add(reading);

@@ -101,6 +101,11 @@ TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
   EXPECT_EQ(again->wheels.track_ratio, simulated.truth.wheels.track_ratio);
   EXPECT_EQ(again->lidar_time_offset_s, simulated.truth.lidar_time_offset_s);
   EXPECT_EQ(again->imu_time_offset_s, simulated.truth.imu_time_offset_s);
+  ASSERT_EQ(again->imu_bias.size(), static_cast<std::size_t>(simulated.log.duration_s()));
+  EXPECT_EQ(again->imu_bias.back().stamp_s, static_cast<double>(again->imu_bias.size()));
+  EXPECT_EQ(again->imu_bias.back().bias.accel_y_mps2,
+            simulated.truth.imu_bias.back().bias.accel_y_mps2);
+  EXPECT_NE(again->imu_bias.back().bias.gyro_radps, again->imu_bias.front().bias.gyro_radps);
   ASSERT_EQ(again->slips.size(), simulated.truth.slips.size());
   ASSERT_GT(again->slips.size(), 2u);
   for (std::size_t i = 0; i < again->slips.size(); ++i) {
