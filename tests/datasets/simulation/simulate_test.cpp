@@ -7,19 +7,11 @@
 #include <numbers>
 
 #include "datasets/simulation/ray_casting.hpp"
+#include "tests/datasets/simulation/from_log_support.hpp"
 #include "tests/datasets/simulation/simulation_support.hpp"
 
 namespace corridor::simulation::testing {
 namespace {
-
-template <class T>
-std::vector<T> readings(const SensorLog& log) {
-  std::vector<T> found;
-  for (const SensorEvent& event : log.events) {
-    if (const auto* reading = std::get_if<T>(&event)) found.push_back(*reading);
-  }
-  return found;
-}
 
 bool is_same(const WheelSample& a, const WheelSample& b) {
   return a.stamp == b.stamp && a.T_odom_base == b.T_odom_base && a.ticks->left == b.ticks->left &&
