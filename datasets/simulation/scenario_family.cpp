@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string_view>
+#include <cstdint>
 
 #include "datasets/simulation/scenario_file.hpp"
 #include "datasets/simulation/toml_input.hpp"
@@ -14,14 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPresetKey = ".preset";
-
 struct Family {
   std::string key;
   std::vector<std::string> values;
 
-  [[nodiscard]] bool is_of_presets() const { return key.ends_with(kPresetKey); }
   [[nodiscard]] std::string section() const { return key.substr(0, key.find('.')); }
+  [[nodiscard]] bool is_of_presets() const { return key == section() + ".preset"; }
 };
 
 // A number, or text that can be a part of a name.
@@ -45,49 +43,61 @@ bool is_known(const Family& family, const Scenario& scenario) {
          scenario_values(scenario).count(family.key) > 0;
 }
 
+std::vector<std::string> read_values(const toml::array& list, std::vector<TomlProblem>& problems) {
+  std::vector<std::string> values;
+  for (const toml::node& node : list) {
+    std::string value;
+    const std::uint32_t line = node.source().begin.line;
+    if (!read_member(node, value)) {
+      problems.push_back({line, "family.values: expected numbers, or names of letters and digits"});
+    } else if (std::find(values.begin(), values.end(), value) != values.end()) {
+      problems.push_back(
+          {line, fmt::format("family.values: {} stands there twice; expected it once", value)});
+    } else {
+      values.push_back(value);
+    }
+  }
+  return values;
+}
+
+Family read_family_table(const toml::table& table, const Scenario& scenario,
+                         std::vector<TomlProblem>& problems) {
+  find_unknown_keys(table, "family", {"key", "values"}, problems);
+  const std::uint32_t line = table.source().begin.line;
+  Family family;
+  const toml::node* key = table.get("key");
+  if (key == nullptr || !read_value(*key, family.key)) {
+    problems.push_back({line, "family.key: expected a parameter, as \"lidar.range_max_m\""});
+  } else if (!is_known(family, scenario)) {
+    problems.push_back({key->source().begin.line,
+                        fmt::format("unknown scenario key {} in family.key; expected a parameter, "
+                                    "as lidar.range_max_m, or presets, as imu.preset",
+                                    family.key)});
+  }
+  const toml::node* values = table.get("values");
+  const toml::array* list = values == nullptr ? nullptr : values->as_array();
+  if (list != nullptr && !list->empty()) {
+    family.values = read_values(*list, problems);
+  } else {
+    problems.push_back({line, "family.values: expected a list of numbers or names"});
+  }
+  return family;
+}
+
 // nullopt: a plain scenario.
 Result<std::optional<Family>> read_family(const fs::path& path) {
   const Result<toml::table> document = parse_toml(path);
   if (!document) return tl::make_unexpected(document.error());
   const toml::node* node = document->get("family");
   if (node == nullptr) return std::optional<Family>();
+  const Result<Scenario> scenario = read_scenario(path);
+  if (!scenario) return tl::make_unexpected(scenario.error());
   std::vector<TomlProblem> problems;
-  const auto problem = [&](const toml::node& at, std::string text) {
-    problems.push_back({at.source().begin.line, std::move(text)});
-  };
   Family family;
   if (const toml::table* table = node->as_table()) {
-    find_unknown_keys(*table, "family", {"key", "values"}, problems);
-    const toml::node* key = table->get("key");
-    const toml::node* values = table->get("values");
-    if (key == nullptr || !read_value(*key, family.key)) {
-      problem(*table, "family.key: expected a parameter, as \"lidar.range_max_m\"");
-    }
-    const toml::array* list = values == nullptr ? nullptr : values->as_array();
-    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-      std::string value;
-      const auto& known = family.values;
-      if (!read_member(*list->get(i), value)) {
-        problem(*list->get(i), "family.values: expected numbers, or names of letters and digits");
-      } else if (std::find(known.begin(), known.end(), value) != known.end()) {
-        problem(*list->get(i),
-                fmt::format("family.values: {} stands there twice; expected it once", value));
-      } else {
-        family.values.push_back(value);
-      }
-    }
-    if (family.values.empty()) {
-      problem(*table, "family.values: expected a list of numbers or names");
-    }
-    const Result<Scenario> scenario = read_scenario(path);
-    if (!scenario) return tl::make_unexpected(scenario.error());
-    if (!family.key.empty() && !is_known(family, *scenario)) {
-      problem(*key, fmt::format("unknown scenario key {} in family.key; expected a parameter, as "
-                                "lidar.range_max_m, or presets, as imu.preset",
-                                family.key));
-    }
+    family = read_family_table(*table, *scenario, problems);
   } else {
-    problem(*node, "family is not a table; expected [family]");
+    problems.push_back({node->source().begin.line, "family is not a table; expected [family]"});
   }
   if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
   return std::optional<Family>(std::move(family));

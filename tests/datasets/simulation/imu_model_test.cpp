@@ -98,24 +98,6 @@ TEST(ImuAllanDeviation, ShowsNoiseInstabilityAndWalkAsStated) {
   }
 }
 
-TEST(ImuAllanDeviation, OfTheAccelerometersIsAsStated) {
-  const ImuParams params{
-      .rate_hz = 20, .accel_noise_mps2_rthz = 0.004, .accel_instability_mps2 = 0.01};
-  ImuModel2d imu(params, {}, 0.05, Rng(5));
-  std::vector<double> x, y;
-  for (int k = 0; k < 400'000; ++k) {
-    const ImuSample sample = imu.measure(cruising(0), cruising(0), {});
-    x.push_back(sample.accel_x_mps2);
-    y.push_back(sample.accel_y_mps2);
-  }
-  for (const auto& readings : {x, y}) {
-    EXPECT_NEAR(allan_deviation(readings, 20) / std::hypot(0.004, 0.00664), 1,
-                0.1 + allan_tolerance(20000));
-    EXPECT_NEAR(allan_deviation(readings, 2000) / std::hypot(0.0004, 0.00664), 1,
-                0.1 + allan_tolerance(200));
-  }
-}
-
 // Second differences of where the IMU is in the world, turned into its frame.
 TEST(ImuLeverArm, ReadsWhatItsPositionSaysWhenDifferentiatedTwice) {
   ImuParams params = kHonest;

@@ -100,7 +100,8 @@ TEST(ScenarioFamily, NamesWhatIsWrongWithItsTable) {
                        "f.toml:3: family.values: expected numbers, or names"));
   EXPECT_TRUE(contains(error("[family]\nkey = \"imu.rate_hz\"\nvalues = [4, 8, 4.0]\n"),
                        "f.toml:3: family.values: 4 stands there twice"));
-  for (const char* key : {"a.b", "lidar.range_max", "imux.preset", "drive.preset", "name"}) {
+  for (const char* key :
+       {"a.b", "lidar.range_max", "imux.preset", "drive.preset", "imu.x.preset", "name"}) {
     const std::string text = std::string("[family]\nkey = \"") + key + "\"\nvalues = [1]\n";
     EXPECT_TRUE(contains(error(text), std::string("f.toml:2: unknown scenario key ") + key))
         << error(text);
