@@ -131,7 +131,7 @@ Scenario random_tube(Rng& rng) {
   return scenario;
 }
 
-// Also asserts that the bounds alone, without the check of the path, hold for nearly all.
+// Whether simulate() then refuses any for its path is counted, not asserted.
 RC_GTEST_PROP(Route, NoAcceptedScenarioDrivesThroughAWall, (std::uint64_t seed)) {
   Rng rng(seed);
   const Scenario scenario = random_tube(rng);
