@@ -70,14 +70,15 @@ Result<ExitCode> SimulateCommand::run() const {
   }
   const Result<simulation::Scenario> read = simulation::load_scenario(scenario);
   if (!read) return tl::make_unexpected(read.error());
-  const simulation::Simulated simulated = simulation::simulate(*read, *drawn_from);
-  if (const Result<void> written = write_all(simulated, out); !written) {
+  const Result<simulation::Simulated> simulated = simulation::simulate(*read, *drawn_from);
+  if (!simulated) return tl::make_unexpected(simulated.error());
+  if (const Result<void> written = write_all(*simulated, out); !written) {
     return tl::make_unexpected(written.error());
   }
   common.say(fmt::format(
       "{}: {} seed {}, {} scans, {} wheel samples, {} inertial samples, {:.1f} s", out, read->name,
-      *drawn_from, simulated.log.num_scans(), simulated.log.num_wheel_samples(),
-      simulated.log.num_imu_samples(), simulated.log.duration_s()));
+      *drawn_from, simulated->log.num_scans(), simulated->log.num_wheel_samples(),
+      simulated->log.num_imu_samples(), simulated->log.duration_s()));
   return runner::kExitDone;
 }
 

@@ -30,11 +30,13 @@ void move_degenerate(double lidar_time_offset_s, simulation::SimulationTruth& tr
 Result<CaseData> simulated_data(const CaseSpec& spec) {
   const Result<simulation::Scenario> scenario = simulation::load_scenario(spec.data_source);
   if (!scenario) return tl::make_unexpected(scenario.error());
-  simulation::Simulated simulated = simulation::simulate(*scenario, spec.data_seed.value_or(1));
+  Result<simulation::Simulated> simulated =
+      simulation::simulate(*scenario, spec.data_seed.value_or(1));
+  if (!simulated) return tl::make_unexpected(simulated.error());
   CaseData data;
-  data.log = std::move(simulated.log);
-  data.world = std::move(simulated.world);
-  data.simulation_truth = std::move(simulated.truth);
+  data.log = std::move(simulated->log);
+  data.world = std::move(simulated->world);
+  data.simulation_truth = std::move(simulated->truth);
   move_degenerate(formats::move_onto_wheel_clock(data.log, nullptr), *data.simulation_truth);
   return data;
 }

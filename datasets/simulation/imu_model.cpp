@@ -63,22 +63,37 @@ ImuSample ImuModel2d::measure(const DriveState& from, const DriveState& to, Time
   const Eigen::Vector2d lever_m = T_base_imu_.translation_m();
   Eigen::Vector2d force((to.speed_mps - from.speed_mps) / step_s_, to.speed_mps * rate);
   force += angular_acceleration * perpendicular(lever_m) - rate * rate * lever_m;
-  force += tilt_.advance(0.5 * (from.speed_mps + to.speed_mps) * step_s_);
+  const Eigen::Vector2d leaked = to.T_world_base.rotation().transpose() *
+                                 tilt_.advance(0.5 * (from.speed_mps + to.speed_mps) * step_s_);
+  force += leaked;
   const double shake_mps2 = params_.vibration_mps2 * std::abs(to.speed_mps);
   const double shake_x = vibration_.normal(0, shake_mps2);
   const double shake_y = vibration_.normal(0, shake_mps2);
   force += Eigen::Vector2d(shake_x, shake_y);
   force = T_base_imu_.rotation().transpose() * force;
+  const Eigen::Vector2d leaked_imu = T_base_imu_.rotation().transpose() * leaked;
+  bias_.gyro_radps = gyro_drift_.advance();
+  bias_.accel_x_mps2 = accel_x_drift_.advance();
+  bias_.accel_y_mps2 = accel_y_drift_.advance();
 
   ImuSample sample;
   sample.stamp = stamp;
-  sample.gyro_z_radps = errors_.gyro_scale * rate + errors_.gyro_bias_radps +
-                        gyro_drift_.advance() + noise_.normal(0, params_.gyro_noise_radps());
+  sample.gyro_z_radps = errors_.gyro_scale * rate + errors_.gyro_bias_radps + bias_.gyro_radps +
+                        noise_.normal(0, params_.gyro_noise_radps());
   sample.accel_x_mps2 = errors_.accel_scale_x * force.x() + errors_.accel_bias_x_mps2 +
-                        accel_x_drift_.advance() + noise_.normal(0, params_.accel_noise_mps2());
+                        bias_.accel_x_mps2 + noise_.normal(0, params_.accel_noise_mps2());
   sample.accel_y_mps2 = errors_.accel_scale_y * force.y() + errors_.accel_bias_y_mps2 +
-                        accel_y_drift_.advance() + noise_.normal(0, params_.accel_noise_mps2());
+                        bias_.accel_y_mps2 + noise_.normal(0, params_.accel_noise_mps2());
+  bias_.gyro_radps += errors_.gyro_bias_radps;
+  bias_.accel_x_mps2 += errors_.accel_bias_x_mps2 + errors_.accel_scale_x * leaked_imu.x();
+  bias_.accel_y_mps2 += errors_.accel_bias_y_mps2 + errors_.accel_scale_y * leaked_imu.y();
   return sample;
+}
+
+bool ImuModel2d::has_varying_bias() const {
+  return params_.gyro_instability_radps > 0 || params_.accel_instability_mps2 > 0 ||
+         params_.gyro_walk_radps_rts > 0 || params_.accel_walk_mps2_rts > 0 ||
+         params_.tilt_sigma_deg > 0;
 }
 
 }  // namespace corridor::simulation

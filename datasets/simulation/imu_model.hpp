@@ -22,11 +22,19 @@ struct ImuErrors {
 };
 ImuErrors draw_imu_errors(const ImuParams& params, const Rng& rng);
 
-// Pitch and roll of the floor along the robot's path: first-order Gauss-Markov in the path.
+// What is added to the IMU's reading besides white noise and vibration.
+struct ImuBias {
+  double gyro_radps = 0;
+  double accel_x_mps2 = 0;  // in the IMU's frame, with the gravity that the floor's tilt leaks in
+  double accel_y_mps2 = 0;
+};
+
+// The floor's slopes along the world's axes where the robot is: first-order Gauss-Markov in the
+// path. They belong to the floor: a robot that turns on the spot feels them from another side.
 class FloorTilt {
  public:
   FloorTilt(const ImuParams& params, Rng rng);
-  // Moves on by a part of the path; gives the share of gravity that shows in base x and y [m/s2].
+  // Moves on by a part of the path; gives the share of gravity along the world's x and y [m/s2].
   Eigen::Vector2d advance(double path_m);
 
  private:
@@ -41,6 +49,10 @@ class ImuModel2d {
 
   // Reading at state `to`, a step after `from`. Must be called for every step, in order.
   ImuSample measure(const DriveState& from, const DriveState& to, Timestamp stamp);
+  // That of the last reading.
+  [[nodiscard]] const ImuBias& bias() const { return bias_; }
+  // False where the bias is that of ImuErrors for the whole log.
+  [[nodiscard]] bool has_varying_bias() const;
 
  private:
   ImuParams params_;
@@ -49,6 +61,7 @@ class ImuModel2d {
   Pose2 T_base_imu_;  // true
   BiasDrift gyro_drift_, accel_x_drift_, accel_y_drift_;
   FloorTilt tilt_;
+  ImuBias bias_;
   Rng noise_, vibration_;
 };
 

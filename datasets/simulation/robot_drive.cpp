@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "datasets/simulation/route.hpp"
 #include "slam/core/expect.hpp"
 
 namespace corridor::simulation {
@@ -15,19 +16,6 @@ constexpr double kRadPerDeg = std::numbers::pi / 180;
 // A drive may take this many times the time of its straight path, plus the constant.
 constexpr double kPatience = 10;
 constexpr double kPatience_s = 60;
-
-// The centre lines of the two arms: start, corner and end of the route.
-struct CentreLine {
-  Vector2d start_m, corner_m, end_m;
-};
-
-CentreLine centre_line(const CorridorShape& shape, double end_margin_m) {
-  const KeyWalls key = key_walls(shape);
-  const Vector2d top_m = (key.top_end.a_m + key.top_end.b_m) / 2;
-  const Vector2d up = (key.right_outer.b_m - key.right_outer.a_m).normalized();
-  const Vector2d corner_m = (key.right_outer.a_m + key.right_inner.b_m) / 2;
-  return {{end_margin_m, shape.c_m / 2}, corner_m, top_m - end_margin_m * up};
-}
 
 // Unit vector to the left of the line.
 Vector2d across(const Vector2d& from_m, const Vector2d& to_m) {
@@ -73,17 +61,40 @@ Command towards(const DriveState& state, const Vector2d& waypoint_m, double crui
                      params.yaw_rate_max_radps)};
 }
 
+// A friction circle: forward and sideways acceleration, as vectors, are at most the floor's grip.
+// The driver keeps to a yaw rate at which cornering takes at most half of the square; braking and
+// setting off get what is left, and wheels that are driven harder slip.
+struct Grip {
+  double limit_mps2;
+  double fastest_mps;  // the robot after this step, at most
+
+  [[nodiscard]] double yaw_rate_max_radps() const {
+    return std::sqrt(0.5) * limit_mps2 / fastest_mps;
+  }
+  [[nodiscard]] double forward_max_mps2(double yaw_rate_radps) const {
+    const double sideways_mps2 = fastest_mps * yaw_rate_radps;
+    return std::sqrt(std::max(0.0, limit_mps2 * limit_mps2 - sideways_mps2 * sideways_mps2));
+  }
+};
+
 // The wheels follow the command, the robot follows its wheels as far as the floor's grip allows.
 DriveState next_state(const DriveState& state, const Command& command, const DriveParams& params,
                       double step_s) {
   DriveState next;
   next.wheel_speed_mps =
       approach(state.wheel_speed_mps, command.speed_mps, params.acceleration_mps2 * step_s);
-  next.speed_mps = params.friction_limit_mps2 > 0 ? approach(state.speed_mps, next.wheel_speed_mps,
-                                                             params.friction_limit_mps2 * step_s)
-                                                  : next.wheel_speed_mps;
-  next.yaw_rate_radps = approach(state.yaw_rate_radps, command.yaw_rate_radps,
-                                 params.yaw_acceleration_radps2 * step_s);
+  const bool is_slippery = params.friction_limit_mps2 > 0;
+  const Grip grip{params.friction_limit_mps2,
+                  state.speed_mps + params.friction_limit_mps2 * step_s};
+  const double wanted_radps = is_slippery
+                                  ? std::clamp(command.yaw_rate_radps, -grip.yaw_rate_max_radps(),
+                                               grip.yaw_rate_max_radps())
+                                  : command.yaw_rate_radps;
+  next.yaw_rate_radps =
+      approach(state.yaw_rate_radps, wanted_radps, params.yaw_acceleration_radps2 * step_s);
+  next.speed_mps = is_slippery ? approach(state.speed_mps, next.wheel_speed_mps,
+                                          grip.forward_max_mps2(next.yaw_rate_radps) * step_s)
+                               : next.wheel_speed_mps;
   const double path_m = 0.5 * (state.speed_mps + next.speed_mps) * step_s;
   const double turn_rad = 0.5 * (state.yaw_rate_radps + next.yaw_rate_radps) * step_s;
   next.T_world_base = state.T_world_base.plus({path_m, 0, turn_rad});
@@ -116,10 +127,6 @@ double straight_length_m(const DrivePlan& plan) {
   return length_m;
 }
 
-}  // namespace
-
-namespace {
-
 // Start at the line's first point and heading, speed, all drawn around the parameters.
 struct Start {
   Pose2 T_world_base;
@@ -137,19 +144,9 @@ Start draw_start(const Vector2d& from_m, double heading_rad, const DriveParams& 
           speed.uniform(params.speed_min_mps, params.speed_max_mps)};
 }
 
-void append_corridor_route(const CorridorShape& shape, const DriveParams& params, Rng lateral,
-                           std::vector<Vector2d>& waypoints_m) {
-  const CentreLine line = centre_line(shape, params.end_margin_m);
-  append_arm(line.start_m, line.corner_m, params, lateral, waypoints_m);
-  // The corner's waypoint is drawn across both arms.
-  waypoints_m.back() += lateral.uniform(-params.lateral_spread_m, params.lateral_spread_m) *
-                        across(line.corner_m, line.end_m);
-  append_arm(line.corner_m, line.end_m, params, lateral, waypoints_m);
-}
-
 // A corner's waypoint moves by one drawn offset across the leg before it and one across that after.
-void append_drawn_route(const std::vector<Vector2d>& route_m, const DriveParams& params,
-                        Rng lateral, std::vector<Vector2d>& waypoints_m) {
+void append_route(const std::vector<Vector2d>& route_m, const DriveParams& params, Rng lateral,
+                  std::vector<Vector2d>& waypoints_m) {
   for (std::size_t i = 1; i < route_m.size(); ++i) {
     append_arm(route_m[i - 1], route_m[i], params, lateral, waypoints_m);
     if (i + 1 == route_m.size()) break;
@@ -160,12 +157,6 @@ void append_drawn_route(const std::vector<Vector2d>& route_m, const DriveParams&
 
 }  // namespace
 
-std::vector<Vector2d> route_of(const World& world, const DriveParams& params) {
-  if (!world.corridor) return world.route_m;
-  const CentreLine line = centre_line(*world.corridor, params.end_margin_m);
-  return {line.start_m, line.corner_m, line.end_m};
-}
-
 DrivePlan draw_plan(const World& world, const DriveParams& params, Rng rng) {
   const std::vector<Vector2d> route_m = route_of(world, params);
   CORRIDOR_EXPECT(!route_m.empty() && (params.stays || route_m.size() >= 2));
@@ -175,11 +166,7 @@ DrivePlan draw_plan(const World& world, const DriveParams& params, Rng rng) {
       draw_start(route_m.front(), std::atan2(first_leg.y(), first_leg.x()), params, rng);
   DrivePlan plan{start.T_world_base, {}, start.speed_mps};
   if (params.stays) return plan;
-  if (world.corridor) {
-    append_corridor_route(*world.corridor, params, rng.stream("lateral"), plan.waypoints_m);
-  } else {
-    append_drawn_route(route_m, params, rng.stream("lateral"), plan.waypoints_m);
-  }
+  append_route(route_m, params, rng.stream("lateral"), plan.waypoints_m);
   if (params.is_return_trip) {
     append_way_back(start.T_world_base.translation_m(), plan.waypoints_m);
   }
@@ -188,27 +175,25 @@ DrivePlan draw_plan(const World& world, const DriveParams& params, Rng rng) {
 
 Drive drive_along(const DrivePlan& plan, const DriveParams& params, double step_s) {
   CORRIDOR_EXPECT(step_s > 0 && plan.speed_mps > 0);
-  Drive drive{
-      .step_s = step_s, .states = {{plan.T_world_base_start, 0, 0, 0}}, .is_complete = false};
+  Drive drive{.step_s = step_s, .states = {{plan.T_world_base_start, 0, 0, 0}}};
   const auto num_still = static_cast<std::size_t>(std::llround(params.stand_s / step_s));
   drive.states.resize(1 + num_still, drive.states.front());
   turn_on_the_spot(2 * std::numbers::pi * params.spin_turns, params, drive);
   const double allowed_s = kPatience_s + kPatience * straight_length_m(plan) / plan.speed_mps;
   const std::size_t max_states = drive.states.size() + static_cast<std::size_t>(allowed_s / step_s);
-  std::size_t waypoint_index = 0;
   while (drive.states.size() < max_states) {
     const DriveState& state = drive.states.back();
-    while (waypoint_index < plan.waypoints_m.size() &&
-           (plan.waypoints_m[waypoint_index] - state.T_world_base.translation_m()).norm() <=
+    while (drive.num_reached < plan.waypoints_m.size() &&
+           (plan.waypoints_m[drive.num_reached] - state.T_world_base.translation_m()).norm() <=
                params.waypoint_reach_m) {
-      ++waypoint_index;
+      ++drive.num_reached;
     }
-    if (waypoint_index == plan.waypoints_m.size()) {
+    if (drive.num_reached == plan.waypoints_m.size()) {
       drive.is_complete = true;
       return drive;
     }
     const Command command =
-        towards(state, plan.waypoints_m[waypoint_index], plan.speed_mps, params);
+        towards(state, plan.waypoints_m[drive.num_reached], plan.speed_mps, params);
     drive.states.push_back(next_state(state, command, params, step_s));
   }
   return drive;

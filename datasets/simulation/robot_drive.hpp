@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "datasets/simulation/scenario_params.hpp"
@@ -26,7 +27,8 @@ struct Drive {
   // states[k] is the truth at k * step_s; states[0] is at rest. Between two states the robot moves
   // along an arc with the mean of their speeds and yaw rates, exactly.
   std::vector<DriveState> states;
-  bool is_complete = false;  // false = a waypoint could not be reached in the time allowed
+  std::size_t num_reached = 0;  // waypoints
+  bool is_complete = false;     // false = a waypoint could not be reached in the time allowed
 
   [[nodiscard]] double duration_s() const {
     return step_s * static_cast<double>(states.empty() ? 0 : states.size() - 1);
@@ -39,13 +41,10 @@ struct DrivePlan {
   double speed_mps = 0;
 };
 
-// The corridor's centre line, or a drawn world's route, with what the seed draws: start pose,
+// The world's route (route_of()) with what the seed draws: start pose,
 // speed, lateral offsets. Requires a corridor or a route of two points or more, unless
 // params.stays.
 DrivePlan draw_plan(const World& world, const DriveParams& params, Rng rng);
-
-// The line that people walk along, without anything drawn; empty in a world without a route.
-std::vector<Eigen::Vector2d> route_of(const World& world, const DriveParams& params);
 
 // Stands, turns on the spot, then drives until the last waypoint is reached.
 Drive drive_along(const DrivePlan& plan, const DriveParams& params, double step_s);

@@ -58,9 +58,10 @@ Result<std::filesystem::path> find_scenario(const std::string& name_or_path);
 // The name or path without that part.
 std::string without_member(const std::string& name_or_path);
 
-// A family is a scenario with the table [family]: key = "lidar.range_max_m", values = [3.5, 4.5].
-// Its members are called NAME@VALUE, each the scenario with that value.
-// The members of a family, as names to load; a plain scenario is its own only member.
+// A family is a scenario with the table [family]: key = "lidar.range_max_m", values = [3.5, 4.5],
+// or key = "imu.preset", values = ["industrial", "consumer"]. Its members are called NAME@VALUE,
+// each the scenario with that value or with that preset under the file's own keys. The members of a
+// family, as names to load; a plain scenario is its own only member.
 Result<std::vector<std::string>> scenario_members(const std::string& name_or_path);
 // A scenario or a member by name or path. A family itself is an Error that names its members.
 Result<Scenario> load_scenario(const std::string& name_or_path);

@@ -1,4 +1,6 @@
 // Scenario files: bases, worlds, presets.
+#include "datasets/simulation/scenario_file.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,9 +18,12 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxBases = 8;  // a chain longer than this goes round in a circle
 
+fs::path presets_path() { return fs::path(CORRIDOR_SCENARIO_DIR) / "presets" / "sensors.toml"; }
+
 class ScenarioReader {
  public:
-  explicit ScenarioReader(const fs::path& path) : path_(path) {}
+  explicit ScenarioReader(const fs::path& path, const SensorPreset& preset = {})
+      : path_(path), preset_(preset) {}
 
   // Onto the values of `scenario`.
   Result<Scenario> read(Scenario scenario, int num_bases) {
@@ -155,6 +160,8 @@ class ScenarioReader {
 
   template <class P>
   void read_section(const char* section, P& params) {
+    const bool has_preset = preset_.section == section;
+    if (has_preset) read_preset(section, preset_.name, 0, params);
     const toml::node* node = document_->get(section);
     if (node == nullptr) return;
     const toml::table* table = node->as_table();
@@ -162,39 +169,36 @@ class ScenarioReader {
       problem(*node, fmt::format("{} is not a table; expected [{}]", section, section));
       return;
     }
-    if (const toml::node* preset = table->get("preset")) read_preset(section, *preset, params);
+    std::string name;
+    const toml::node* preset = table->get("preset");
+    if (preset != nullptr && !read_value(*preset, name)) {
+      problem(*preset, fmt::format("{}.preset has another type; expected text", section));
+    } else if (preset != nullptr && !has_preset) {
+      read_preset(section, name, preset->source().begin.line, params);
+    }
     read_table(*table, section, MissingKeys::kKeepDefault, params, problems_, {"preset"});
   }
 
   template <class P>
-  void read_preset(const char* section, const toml::node& node, P& params) {
-    std::string name;
-    if (!read_value(node, name)) {
-      problem(node, fmt::format("{}.preset has another type; expected text", section));
-      return;
-    }
+  void read_preset(const char* section, const std::string& name, std::uint32_t line, P& params) {
     const Result<toml::table> presets = parse_toml(presets_path());
     if (!presets) {
-      problem(node, presets.error().to_line());
+      problems_.push_back({line, presets.error().to_line()});
       return;
     }
     const toml::table* of_section = presets->get_as<toml::table>(section);
     if (of_section == nullptr) {
-      problem(node, fmt::format("there are no presets of [{}]; expected one of [{}]", section,
-                                fmt::join(names_in(&*presets), "] [")));
+      problems_.push_back({line, fmt::format("there are no presets of [{}]; expected one of [{}]",
+                                             section, fmt::join(names_in(&*presets), "] ["))});
       return;
     }
     const toml::table* preset = of_section->get_as<toml::table>(name);
     if (preset == nullptr) {
-      problem(node, fmt::format("unknown preset {}.{}; expected one of {}", section, name,
-                                fmt::join(names_in(of_section), " ")));
+      problems_.push_back({line, fmt::format("unknown preset {}.{}; expected one of {}", section,
+                                             name, fmt::join(names_in(of_section), " "))});
       return;
     }
     read_table(*preset, section, MissingKeys::kKeepDefault, params, problems_, {"title", "source"});
-  }
-
-  static fs::path presets_path() {
-    return fs::path(CORRIDOR_SCENARIO_DIR) / "presets" / "sensors.toml";
   }
 
   static std::vector<std::string> names_in(const toml::table* table) {
@@ -207,7 +211,7 @@ class ScenarioReader {
   // "lidar.range_max_m = 3: expected ..." stands in the line of that key.
   std::uint32_t line_of_violation(std::string_view violation) const {
     const std::size_t point = violation.find('.');
-    const std::size_t space = violation.find(' ');
+    const std::size_t space = violation.find_first_of(" :");
     if (point == std::string_view::npos || space == std::string_view::npos || point > space) {
       return 0;
     }
@@ -220,6 +224,7 @@ class ScenarioReader {
   }
 
   fs::path path_;
+  SensorPreset preset_;
   const toml::table* document_ = nullptr;
   std::vector<std::string> known_;
   std::vector<TomlProblem> problems_;
@@ -228,5 +233,14 @@ class ScenarioReader {
 }  // namespace
 
 Result<Scenario> read_scenario(const fs::path& path) { return ScenarioReader(path).read({}, 0); }
+
+Result<Scenario> read_scenario(const fs::path& path, const SensorPreset& preset) {
+  return ScenarioReader(path, preset).read({}, 0);
+}
+
+bool has_presets(const std::string& section) {
+  const Result<toml::table> presets = parse_toml(presets_path());
+  return presets && presets->contains(section);
+}
 
 }  // namespace corridor::simulation

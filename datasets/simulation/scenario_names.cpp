@@ -4,54 +4,14 @@
 
 #include <algorithm>
 
-#include "datasets/simulation/scenario.hpp"
-#include "datasets/simulation/toml_input.hpp"
+#include "datasets/simulation/scenario_family.hpp"
+#include "datasets/simulation/scenario_file.hpp"
 #include "slam/core/nearest_names.hpp"
 
 namespace corridor::simulation {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Family {
-  std::string key;
-  std::vector<std::string> values;
-};
-
-// nullopt: a plain scenario.
-Result<std::optional<Family>> read_family(const fs::path& path) {
-  const Result<toml::table> document = parse_toml(path);
-  if (!document) return tl::make_unexpected(document.error());
-  const toml::node* node = document->get("family");
-  if (node == nullptr) return std::optional<Family>();
-  std::vector<TomlProblem> problems;
-  const auto problem = [&](const toml::node& at, std::string text) {
-    problems.push_back({at.source().begin.line, std::move(text)});
-  };
-  Family family;
-  if (const toml::table* table = node->as_table()) {
-    find_unknown_keys(*table, "family", {"key", "values"}, problems);
-    const toml::node* key = table->get("key");
-    const toml::node* values = table->get("values");
-    if (key == nullptr || !read_value(*key, family.key)) {
-      problem(*table, "family.key: expected a parameter, as \"lidar.range_max_m\"");
-    }
-    const toml::array* list = values == nullptr ? nullptr : values->as_array();
-    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-      double number = 0;
-      if (read_value(*list->get(i), number)) {
-        family.values.push_back(fmt::format("{}", number));
-      } else {
-        problem(*list->get(i), "family.values: expected numbers");
-      }
-    }
-    if (family.values.empty()) problem(*table, "family.values: expected a list of numbers");
-  } else {
-    problem(*node, "family is not a table; expected [family]");
-  }
-  if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
-  return std::optional<Family>(std::move(family));
-}
 
 struct NameParts {
   std::string file, member;
@@ -124,8 +84,15 @@ Result<Scenario> load_scenario(const std::string& name_or_path) {
     return fail(ErrorCode::kNotFound, "a family of scenarios needs one of its members",
                 name_or_path, fmt::format("{}@ and one of {}", parts.file, fmt::join(values, " ")));
   }
+  ParamValues overrides;
+  if ((*family)->is_of_presets()) {
+    scenario = read_scenario(*path, {(*family)->section(), parts.member});
+    if (!scenario) return scenario;
+  } else {
+    overrides.emplace((*family)->key, parts.member);
+  }
   scenario->name += fmt::format("@{}", parts.member);
-  return with_overrides(std::move(*scenario), {{(*family)->key, parts.member}}, path->string());
+  return with_overrides(std::move(*scenario), overrides, path->string());
 }
 
 }  // namespace corridor::simulation

@@ -91,8 +91,8 @@ struct DriveParams {
     v(
         ParamInfo{
             "friction_limit_mps2", "m/s2",
-            "the floor gives the robot no more acceleration: wheels that are driven harder slip; "
-            "0 = grip without limit",
+            "the floor gives the robot no more acceleration, forward and sideways as one vector: "
+            "wheels that are driven harder slip; 0 = grip without limit",
             0, 20},
         p.friction_limit_mps2);
   }

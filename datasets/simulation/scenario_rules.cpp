@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "datasets/simulation/route.hpp"
 #include "datasets/simulation/scenario.hpp"
 
 namespace corridor::simulation {
@@ -53,19 +54,46 @@ std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
   return shapes;
 }
 
-// The path on which the robot comes to rest: its brakes hold no better than the floor.
+// The path on which the robot comes to rest: its brakes hold no better than what the floor gives
+// beside a turn.
 double braking_path_m(const DriveParams& drive) {
-  const double braking_mps2 = drive.friction_limit_mps2 > 0
-                                  ? std::min(drive.acceleration_mps2, drive.friction_limit_mps2)
-                                  : drive.acceleration_mps2;
+  const double braking_mps2 =
+      drive.friction_limit_mps2 > 0
+          ? std::min(drive.acceleration_mps2, std::sqrt(0.5) * drive.friction_limit_mps2)
+          : drive.acceleration_mps2;
   return drive.speed_max_mps * drive.speed_max_mps / (2 * braking_mps2);
 }
 
-// Room beside a route through the corridor of this shape.
+// How far the robot may go past a waypoint before it has come to rest.
+double overshoot_m(const DriveParams& drive) {
+  return drive.stays ? 0 : std::max(0.0, braking_path_m(drive) - drive.waypoint_reach_m);
+}
+
+// Room beside a route through the corridor of this shape. The corner's waypoint is moved by two
+// drawn offsets, one across each arm: across the other arm the second counts by its cosine.
 double free_width_m(const CorridorShape& shape, const DriveParams& drive) {
-  const double braking_m = braking_path_m(drive);
-  return 0.5 * shape.c_m - std::max(drive.start_spread_m, drive.lateral_spread_m) -
-         std::max(0.0, braking_m - drive.waypoint_reach_m);
+  const double at_corner_m = drive.lateral_spread_m * (1 + std::abs(std::cos(shape.alpha_rad)));
+  return 0.5 * shape.c_m - std::max(drive.start_spread_m, at_corner_m) - overshoot_m(drive);
+}
+
+// How far a seed may move each point of a drawn route: the start by a square; a bend by one offset
+// across the leg before it and one across that after, at most their longer diagonal; the points
+// between by one offset.
+std::vector<double> most_moved_m(const std::vector<Eigen::Vector2d>& route_m,
+                                 const DriveParams& drive) {
+  const double spread_m = drive.stays ? 0 : drive.lateral_spread_m;
+  std::vector<double> moved_m(route_m.size(),
+                              std::max(std::sqrt(2.0) * drive.start_spread_m, spread_m));
+  for (std::size_t i = 1; i < route_m.size(); ++i) {
+    double cosine = -1;  // the last point has no leg after it: one offset alone
+    if (i + 1 < route_m.size()) {
+      const Eigen::Vector2d before_m = route_m[i] - route_m[i - 1];
+      const Eigen::Vector2d after_m = route_m[i + 1] - route_m[i];
+      cosine = std::abs(before_m.normalized().dot(after_m.normalized()));
+    }
+    moved_m[i] = spread_m * (cosine < 0 ? 1 : std::sqrt(2 * (1 + cosine)));
+  }
+  return moved_m;
 }
 
 struct ArmLengths {
@@ -122,34 +150,67 @@ void check_route(const Scenario& scenario, const CorridorShape& shape,
   check_slips(scenario, arms.first_m + arms.second_m - shortened_m, found);
 }
 
+// People walk along the route, beside it by a drawn offset.
+void check_people(const Scenario& scenario, const World& world, std::vector<std::string>& found) {
+  const PeopleParams& people = scenario.people;
+  if (people.num_people == 0) return;
+  const std::vector<Eigen::Vector2d> route_m = route_of(world, scenario.drive);
+  if (route_m.size() < 2) {
+    found.push_back(
+        fmt::format("people.num_people = {}: expected a route of two points or more to walk along",
+                    people.num_people));
+    return;
+  }
+  const double half_width_m = people.lateral_spread_m + people.radius_m;
+  if (const auto leg = blocked_leg(world, route_m, half_width_m)) {
+    found.push_back(fmt::format(
+        "people.lateral_spread_m = {}: expected no wall within it and radius_m = {} of the route, "
+        "but one stands beside leg {}",
+        people.lateral_spread_m, people.radius_m, *leg + 1));
+  }
+}
+
 // The paper's corridor at every edge of what a seed may draw; the first that is unfit.
 void check_corridor(const Scenario& scenario, std::vector<std::string>& found) {
   for (const CorridorShape& shape : extreme_shapes(scenario)) {
     std::vector<std::string> problems = violations(shape);
     for (std::string& line : problems) line += ", at the edge of what [draw] allows";
     if (problems.empty()) check_route(scenario, shape, problems);
+    if (problems.empty()) check_people(scenario, make_corridor(shape), problems);
     if (problems.empty()) continue;
     found.insert(found.end(), problems.begin(), problems.end());
     return;  // the other edges would say the same again
   }
 }
 
+// The route of a drawn world, at every edge of what a seed may draw.
+void check_room(const Scenario& scenario, std::vector<std::string>& found) {
+  const std::vector<Eigen::Vector2d>& route_m = scenario.world.route_m;
+  std::vector<double> needed_m = most_moved_m(route_m, scenario.drive);
+  for (double& needed : needed_m) needed += kClearance_m + overshoot_m(scenario.drive);
+  if (const auto spot = tight_spot(scenario.world, route_m, needed_m)) {
+    found.push_back(fmt::format(
+        "world.route_m: leg {} passes {}, {} m beside what start_spread_m, lateral_spread_m and "
+        "braking may take",
+        spot->leg + 1, to_text(*spot), kClearance_m));
+  }
+}
+
 void check_drawing(const Scenario& scenario, std::vector<std::string>& found) {
   const DriveParams& drive = scenario.drive;
-  const double braking_m = braking_path_m(drive);
-  const double clearance_m = kClearance_m + std::max(drive.start_spread_m, drive.lateral_spread_m) +
-                             std::max(0.0, braking_m - drive.waypoint_reach_m);
-  for (std::string& line : violations(scenario.world, clearance_m)) {
-    found.push_back(std::move(line));
-  }
+  found = violations(scenario.world);
+  if (!found.empty()) return;
   const std::size_t least = drive.stays ? 1 : 2;
   if (scenario.world.route_m.size() < least) {
     found.push_back(fmt::format("world.route_m = {} points: expected at least {}",
                                 scenario.world.route_m.size(), least));
+    return;
   }
-  if (scenario.people.num_people > 0 && scenario.world.route_m.size() < 2) {
-    found.push_back("people.num_people = " + std::to_string(scenario.people.num_people) +
-                    ": expected a route of two points or more to walk along");
+  check_room(scenario, found);
+  if (scenario.draw.length_spread != 0 || scenario.draw.alpha_spread_deg != 0) {
+    found.push_back(
+        fmt::format("draw.{}: expected 0 in a world that is drawn wall by wall",
+                    scenario.draw.length_spread != 0 ? "length_spread" : "alpha_spread_deg"));
   }
   double length_m = 0;
   for (std::size_t i = 0; i + 1 < scenario.world.route_m.size(); ++i) {
@@ -157,6 +218,7 @@ void check_drawing(const Scenario& scenario, std::vector<std::string>& found) {
                 2 * (drive.lateral_spread_m + drive.waypoint_reach_m);
   }
   check_slips(scenario, length_m, found);
+  check_people(scenario, scenario.world, found);
 }
 
 }  // namespace

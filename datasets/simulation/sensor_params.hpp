@@ -194,7 +194,8 @@ struct ImuParams {
                 "standard deviation of what the mounting's yaw is off", 0, 10},
       p.misalignment_sigma_deg);
     v(ParamInfo{"tilt_sigma_deg", "deg",
-                "standard deviation of the floor's pitch and roll, through which gravity leaks in",
+                "standard deviation of the floor's slopes along x and y, through which gravity "
+                "leaks in",
                 0, 5},
       p.tilt_sigma_deg);
     v(ParamInfo{"tilt_length_m", "m", "path over which the floor's tilt changes", 0.05, 100},

@@ -12,12 +12,18 @@
 #include "datasets/simulation/observability.hpp"
 #include "datasets/simulation/people.hpp"
 #include "datasets/simulation/robot_drive.hpp"
+#include "datasets/simulation/route.hpp"
 #include "datasets/simulation/slips.hpp"
 #include "datasets/simulation/wheel_model.hpp"
 #include "slam/core/expect.hpp"
 
 namespace corridor::simulation {
 namespace {
+
+// From the base to the nearest wall, anywhere on the true path: half a robot's width.
+constexpr double kLeastRoom_m = 0.2;
+// Of the true biases in the sidecar.
+constexpr double kBiasRate_hz = 1;
 
 World draw_world(const Scenario& scenario, Rng rng) {
   if (!scenario.world.corridor) return scenario.world;
@@ -49,6 +55,25 @@ SimulationTruth draw_truth(const Scenario& scenario, const Drive& drive, const W
   return truth;
 }
 
+// A log says that the robot drove: to its end, and not through walls.
+Result<void> check_drive(const Drive& drive, const DrivePlan& plan, const World& world,
+                         const std::string& name) {
+  std::vector<Eigen::Vector2d> path_m;
+  for (const DriveState& state : drive.states) path_m.push_back(state.T_world_base.translation_m());
+  const std::vector<double> needed_m(path_m.size(), kLeastRoom_m);
+  if (const auto spot = tight_spot(world, path_m, needed_m)) {
+    return fail(ErrorCode::kInvalid,
+                fmt::format("after {:.1f} s the drive passes {}",
+                            static_cast<double>(spot->leg) * drive.step_s, to_text(*spot)),
+                name);
+  }
+  if (drive.is_complete) return {};
+  return fail(ErrorCode::kInvalid,
+              fmt::format("waypoint {} of {} is not reached within {:.0f} s", drive.num_reached + 1,
+                          plan.waypoints_m.size(), drive.duration_s()),
+              name, "[drive] limits with which the robot can follow its route");
+}
+
 // Lets the three sensors watch the drive, step by step.
 class Recorder {
  public:
@@ -72,6 +97,7 @@ class Recorder {
     const double rate_hz = scenario_.imu.rate_hz;
     const std::size_t wheel_steps = steps_per_sample(rate_hz, scenario_.wheels.rate_hz);
     const std::size_t scan_steps = steps_per_sample(rate_hz, scenario_.lidar.rate_hz);
+    const std::size_t bias_steps = steps_per_sample(rate_hz, kBiasRate_hz);
     for (std::size_t k = 1; k < drive_.states.size(); ++k) {
       const DriveState& from = drive_.states[k - 1];
       const DriveState& to = drive_.states[k];
@@ -83,6 +109,9 @@ class Recorder {
         if (const auto stamp = wheel_path_.stamp_of(moment)) add(encoders_.sample(*stamp));
       }
       ImuSample reading = imu_.measure(from, to, moment);
+      if (k % bias_steps == 0 && imu_.has_varying_bias()) {
+        simulated_.truth.imu_bias.push_back({to_seconds(moment), imu_.bias()});
+      }
       if (const auto stamp = imu_path_.stamp_of(moment)) {
         reading.stamp = *stamp;
         add(reading);
@@ -147,24 +176,28 @@ class Recorder {
 
 }  // namespace
 
-Simulated simulate(const Scenario& scenario, std::uint64_t seed) {
+Result<Simulated> simulate(const Scenario& scenario, std::uint64_t seed) {
   CORRIDOR_EXPECT(violations(scenario).empty());
   const Rng rng(seed);
   Simulated simulated;
   simulated.world = draw_world(scenario, rng.stream("world"));
   const DrivePlan plan = draw_plan(simulated.world, scenario.drive, rng.stream("path"));
   const Drive drive = drive_along(plan, scenario.drive, 1 / scenario.imu.rate_hz);
+  const std::string name = fmt::format("{}-s{}", scenario.name, seed);
+  if (const Result<void> driven = check_drive(drive, plan, simulated.world, name); !driven) {
+    return tl::make_unexpected(driven.error());
+  }
   simulated.truth = draw_truth(scenario, drive, simulated.world, rng);
   simulated.log.robot = nominal_robot(scenario);
-  simulated.log.provenance = {.name = fmt::format("{}-s{}", scenario.name, seed),
-                              .source = "simulated",
-                              .format = "simulation",
-                              .notes = {}};
-  if (!drive.is_complete) {
-    simulated.log.provenance.notes.emplace_back("the drive ended before its last waypoint");
-  }
+  simulated.log.provenance = {
+      .name = name, .source = "simulated", .format = "simulation", .notes = {}};
   simulated.log.truth.emplace();
   Recorder(scenario, drive, rng, simulated).record();
+  if (simulated.log.truth->empty()) {
+    return fail(ErrorCode::kInvalid,
+                fmt::format("no scan in a drive of {:.3g} s", drive.duration_s()), name,
+                "a drive long enough for one");
+  }
   return simulated;
 }
 

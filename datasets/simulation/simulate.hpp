@@ -9,6 +9,7 @@
 #include "datasets/simulation/scenario.hpp"
 #include "datasets/simulation/truth.hpp"
 #include "datasets/simulation/world.hpp"
+#include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
 
 namespace corridor::simulation {
@@ -22,8 +23,9 @@ struct Simulated {
 };
 
 // Deterministic: the same scenario and seed give the same bytes. Requires violations(scenario) to
-// be empty, which read_scenario() and with_overrides() guarantee.
-Simulated simulate(const Scenario& scenario, std::uint64_t seed);
+// be empty, which read_scenario() and with_overrides() guarantee. An Error where the drive that the
+// seed gives does not reach its end, comes too near to a wall, or is over before the first scan.
+Result<Simulated> simulate(const Scenario& scenario, std::uint64_t seed);
 
 // The text of LOG.truth.toml.
 inline std::string truth_toml(const Simulated& simulated) { return truth_toml(simulated.truth); }

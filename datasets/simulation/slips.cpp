@@ -10,10 +10,22 @@ namespace {
 
 constexpr double kLeastSlip_mps = 0.01;
 
-bool meets_any(const SlipInterval& slip, const std::vector<SlipInterval>& slips) {
-  return std::any_of(slips.begin(), slips.end(), [&](const SlipInterval& other) {
-    return slip.begin_s < other.end_s && other.begin_s < slip.end_s;
-  });
+// The event at a moment, if there is one.
+const SlipInterval* event_at(const std::vector<SlipInterval>& slips, double time_s) {
+  for (const SlipInterval& slip : slips) {
+    const bool is_event = slip.cause == SlipCause::kEvent;
+    if (is_event && time_s >= slip.begin_s && time_s < slip.end_s) return &slip;
+  }
+  return nullptr;
+}
+
+// A step belongs to the event that its middle lies in: what overlaps is a part of a step.
+void cut_at_events(const std::vector<SlipInterval>& events, SlipInterval& slip) {
+  for (const SlipInterval& event : events) {
+    if (event.end_s <= slip.begin_s || slip.end_s <= event.begin_s) continue;
+    (event.begin_s <= slip.begin_s ? slip.begin_s : slip.end_s) =
+        event.begin_s <= slip.begin_s ? event.end_s : event.begin_s;
+  }
 }
 
 int number_of(const SlipParams& params, double drive_s) {
@@ -45,7 +57,9 @@ void append_friction_slips(const Drive& drive, std::vector<SlipInterval>& slips)
   bool is_open = false;
   for (std::size_t k = 1; k < drive.states.size(); ++k) {
     const DriveState& state = drive.states[k];
-    const bool is_slipping = std::abs(state.wheel_speed_mps - state.speed_mps) > kLeastSlip_mps;
+    const double middle_s = (static_cast<double>(k) - 0.5) * drive.step_s;
+    const bool is_slipping = std::abs(state.wheel_speed_mps - state.speed_mps) > kLeastSlip_mps &&
+                             event_at(slips, middle_s) == nullptr;
     if (is_slipping && !is_open) {
       const double begin_s = static_cast<double>(k - 1) * drive.step_s;
       found.push_back({begin_s, begin_s, 0, SlipCause::kGrip});
@@ -60,20 +74,15 @@ void append_friction_slips(const Drive& drive, std::vector<SlipInterval>& slips)
     found.back().end_s = static_cast<double>(k) * drive.step_s;
     found.back().ratio = robot_m > 0 ? wheel_m / robot_m - 1 : 0;
   }
-  const std::vector<SlipInterval> events = slips;
-  for (const SlipInterval& slip : found) {
-    if (!meets_any(slip, events)) slips.push_back(slip);
-  }
+  for (SlipInterval& slip : found) cut_at_events(slips, slip);
+  slips.insert(slips.end(), found.begin(), found.end());
   std::sort(slips.begin(), slips.end(),
             [](const SlipInterval& a, const SlipInterval& b) { return a.begin_s < b.begin_s; });
 }
 
 double event_ratio_at(const std::vector<SlipInterval>& slips, double time_s) {
-  for (const SlipInterval& slip : slips) {
-    const bool is_event = slip.cause == SlipCause::kEvent;
-    if (is_event && time_s >= slip.begin_s && time_s < slip.end_s) return slip.ratio;
-  }
-  return 0;
+  const SlipInterval* event = event_at(slips, time_s);
+  return event == nullptr ? 0 : event->ratio;
 }
 
 }  // namespace corridor::simulation

@@ -14,8 +14,8 @@ namespace corridor::simulation {
 std::vector<SlipInterval> drawn_slips(const SlipParams& params, double drive_s, Rng rng);
 
 // Adds the intervals in which the drive's wheels turned at another speed than the robot moved (by
-// more than 1 cm/s), with the mean ratio; those that meet an event already there are left out.
-// Keeps the list in order.
+// more than 1 cm/s), with the mean ratio; what lies in an event already there is cut out. Keeps the
+// list in order.
 void append_friction_slips(const Drive& drive, std::vector<SlipInterval>& slips);
 
 // Ratio of the event at a moment; 0 without, and 0 in intervals of limited grip, whose wheel speeds

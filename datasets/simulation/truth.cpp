@@ -62,40 +62,50 @@ struct ErrorsTable {
 };
 
 struct SlipRow {
-  SlipInterval interval;
+  SlipInterval value;
   static void visit(auto& p, auto&& v) {
-    v(ParamInfo{"begin_s", "s", "first moment"}, p.interval.begin_s);
-    v(ParamInfo{"end_s", "s", "last moment"}, p.interval.end_s);
-    v(ParamInfo{"ratio", "1", "spin"}, p.interval.ratio);
+    v(ParamInfo{"begin_s", "s", "first moment"}, p.value.begin_s);
+    v(ParamInfo{"end_s", "s", "last moment"}, p.value.end_s);
+    v(ParamInfo{"ratio", "1", "spin"}, p.value.ratio);
   }
 };
 
 struct BlindRow {
-  DegenerateInterval interval;
+  DegenerateInterval value;
   static void visit(auto& p, auto&& v) {
-    v(ParamInfo{"begin_s", "s", "first scan"}, p.interval.begin_s);
-    v(ParamInfo{"end_s", "s", "last scan"}, p.interval.end_s);
+    v(ParamInfo{"begin_s", "s", "first scan"}, p.value.begin_s);
+    v(ParamInfo{"end_s", "s", "last scan"}, p.value.end_s);
   }
 };
 
 struct DegenerateRow {
-  DegenerateInterval interval;
+  DegenerateInterval value;
   static void visit(auto& p, auto&& v) {
     BlindRow::visit(p, v);
-    if (!p.interval.direction_rad) p.interval.direction_rad.emplace();
-    v(ParamInfo{"direction_rad", "rad", "free direction"}, *p.interval.direction_rad);
+    if (!p.value.direction_rad) p.value.direction_rad.emplace();
+    v(ParamInfo{"direction_rad", "rad", "free direction"}, *p.value.direction_rad);
+  }
+};
+
+struct BiasRow {
+  ImuBiasSample value;
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"stamp_s", "s", "moment"}, p.value.stamp_s);
+    v(ParamInfo{"gyro_radps", "rad/s", "constant part and drift"}, p.value.bias.gyro_radps);
+    v(ParamInfo{"accel_x_mps2", "m/s2", "and leaked gravity"}, p.value.bias.accel_x_mps2);
+    v(ParamInfo{"accel_y_mps2", "m/s2", "and leaked gravity"}, p.value.bias.accel_y_mps2);
   }
 };
 
 template <class Row>
-std::string rows_text(std::string_view key, const auto& intervals) {
+std::string rows_text(std::string_view key, const auto& values) {
   std::string text = fmt::format("{} = [", key);
   const char* separator = "";
-  for (const auto& interval : intervals) {
-    Row row{interval};
+  for (const auto& value : values) {
+    Row row{value};
     std::string fields;
-    Row::visit(row, [&](const ParamInfo& info, double& value) {
-      fields += fmt::format("{}{} = {}", fields.empty() ? "" : ", ", info.name, value);
+    Row::visit(row, [&](const ParamInfo& info, double& field) {
+      fields += fmt::format("{}{} = {}", fields.empty() ? "" : ", ", info.name, field);
     });
     text += fmt::format("{}{{ {} }}", separator, fields);
     separator = ", ";
@@ -123,9 +133,9 @@ std::string table_text(std::string_view section, Table table) {
 }
 
 // Takes an array of rows out of a table, so that read_table() sees only its plain keys.
-template <class Row, class Interval>
+template <class Row, class Value>
 void take_rows(toml::table& document, std::string_view section, std::string_view key,
-               std::vector<Interval>& intervals, std::vector<TomlProblem>& problems) {
+               std::vector<Value>& values, std::vector<TomlProblem>& problems) {
   toml::table* table = document.get_as<toml::table>(section);
   if (table == nullptr) return;  // read_section() reports it
   const toml::node* node = table->get(key);
@@ -142,7 +152,7 @@ void take_rows(toml::table& document, std::string_view section, std::string_view
       } else {
         problems.push_back({element.source().begin.line, name + ": expected tables in the list"});
       }
-      intervals.push_back(row.interval);
+      values.push_back(row.value);
     }
   }
   table->erase(key);
@@ -180,8 +190,9 @@ std::string truth_toml(const SimulationTruth& truth) {
       table_text("wheels", WheelTable{truth.wheels.left_scale, truth.wheels.right_scale}) +
       rows_text<SlipRow>("slips", events) + rows_text<SlipRow>("grip_slips", grip_slips) +
       table_text("imu",
-                 ImuTable{imu.gyro_bias_radps, imu.accel_bias_x_mps2, imu.accel_bias_y_mps2}) +
-      table_text("lidar", LidarTable{truth.range_max_m, truth.range_sigma_m});
+                 ImuTable{imu.gyro_bias_radps, imu.accel_bias_x_mps2, imu.accel_bias_y_mps2});
+  if (!truth.imu_bias.empty()) text += rows_text<BiasRow>("bias", truth.imu_bias);
+  text += table_text("lidar", LidarTable{truth.range_max_m, truth.range_sigma_m});
   if (truth.degenerate) text += degenerate_text(*truth.degenerate);
   return text + table_text("errors",
                            ErrorsTable{truth.wheels.track_ratio, imu.gyro_scale, imu.accel_scale_x,
@@ -201,6 +212,7 @@ Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
     take_rows<BlindRow>(*document, "lidar", "blind", *truth.degenerate, problems);
     sort_by_begin(*truth.degenerate);
   }
+  take_rows<BiasRow>(*document, "imu", "bias", truth.imu_bias, problems);
   take_rows<SlipRow>(*document, "wheels", "slips", truth.slips, problems);
   const std::size_t num_events = truth.slips.size();
   take_rows<SlipRow>(*document, "wheels", "grip_slips", truth.slips, problems);

@@ -21,7 +21,8 @@ enum class SlipCause {
 };
 
 // While begin_s <= t < end_s both wheels spin: each turns (1 + ratio) times as far as the robot
-// moves over it; for kGrip that is the mean.
+// moves over it; for kGrip that is the mean. Where grip is limited too, an event's ratio is that on
+// top of it.
 struct SlipInterval {
   double begin_s = 0;
   double end_s = 0;
@@ -38,13 +39,20 @@ struct DegenerateInterval {
   std::optional<double> direction_rad;
 };
 
+// The IMU's bias at a moment of the wheels' clock.
+struct ImuBiasSample {
+  double stamp_s = 0;
+  ImuBias bias;
+};
+
 struct SimulationTruth {
   World world;
   Pose2 T_world_base_start;
   WheelErrors wheels;
   std::vector<SlipInterval> slips;  // in order, none meets another
   ImuErrors imu;
-  double lidar_time_offset_s = 0;  // its clock minus the wheels', known and unknown part
+  std::vector<ImuBiasSample> imu_bias;  // once a second; empty where it is that of `imu` throughout
+  double lidar_time_offset_s = 0;       // its clock minus the wheels', known and unknown part
   double imu_time_offset_s = 0;
   double range_max_m = 0;
   double range_sigma_m = 0;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 
@@ -18,8 +17,7 @@ using Eigen::Vector2d;
 constexpr double kLargest_m = 1e5;
 constexpr double kShortest_m = 1e-3;
 constexpr double kArcPiece_rad = std::numbers::pi / 36;
-// The route is tried this densely; a longer one would be tried for hours.
-constexpr double kRouteStep_m = 0.05;
+// The walls beside a longer one would be looked for for hours.
 constexpr double kLongestRoute_m = 1e4;
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
@@ -75,45 +73,31 @@ void check_materials(const World& world, std::vector<std::string>& found) {
   }
 }
 
-double clearance_of(const World& world, const Vector2d& point_m) {
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Segment& wall : world.walls) {
-    nearest_m = std::min(nearest_m, clearance_m(wall, point_m));
-  }
-  for (const Arc& arc : world.arcs) nearest_m = std::min(nearest_m, clearance_m(arc, point_m));
-  return nearest_m;
-}
-
-void check_route(const World& world, double clearance_m, std::vector<std::string>& found) {
+void check_route(const std::vector<Vector2d>& route_m, std::vector<std::string>& found) {
   double length_m = 0;
-  for (std::size_t i = 0; i + 1 < world.route_m.size(); ++i) {
-    const Vector2d leg_m = world.route_m[i + 1] - world.route_m[i];
-    if (!is_sane(world.route_m[i]) || !is_sane(world.route_m[i + 1])) {
-      found.push_back(fmt::format("world: route point {} or {} is not within {} m of the origin", i,
-                                  i + 1, kLargest_m));
-      return;
-    }
-    length_m += leg_m.norm();
-    if (length_m > kLongestRoute_m) {
-      found.push_back(fmt::format("world: a route of more than {} m", kLongestRoute_m));
-      return;
-    }
-    const int num_steps = static_cast<int>(std::ceil(leg_m.norm() / kRouteStep_m));
-    for (int k = 0; k <= num_steps;) {
-      const Vector2d point_m =
-          world.route_m[i] + leg_m * (num_steps == 0 ? 0 : static_cast<double>(k) / num_steps);
-      const double room_m = clearance_of(world, point_m);
-      if (room_m >= clearance_m) {
-        // No wall comes nearer by more than the way to the next point that is tried.
-        const double spare_m = std::min(room_m - clearance_m, leg_m.norm());
-        k += std::max(1, static_cast<int>(spare_m / kRouteStep_m));
-        continue;
-      }
+  for (std::size_t i = 0; i < route_m.size(); ++i) {
+    if (!is_sane(route_m[i])) {
       found.push_back(
-          fmt::format("world: the route passes ({:.3g}, {:.3g}) at {:.3g} m from a wall; expected "
-                      "at least {} m",
-                      point_m.x(), point_m.y(), room_m, clearance_m));
-      break;
+          fmt::format("world.route_m: point {} is ({:.4g}, {:.4g}) m; expected within {} "
+                      "m of the origin",
+                      i + 1, route_m[i].x(), route_m[i].y(), kLargest_m));
+      return;
+    }
+    if (i == 0) continue;
+    const double leg_m = (route_m[i] - route_m[i - 1]).norm();
+    if (leg_m < kShortest_m) {
+      found.push_back(
+          fmt::format("world.route_m: points {} and {} are both ({:.4g}, {:.4g}) m; expected at "
+                      "least {} m of way "
+                      "between them",
+                      i, i + 1, route_m[i].x(), route_m[i].y(), kShortest_m));
+      return;
+    }
+    length_m += leg_m;
+    if (length_m > kLongestRoute_m) {
+      found.push_back(fmt::format("world.route_m: {:.0f} m up to point {}; expected at most {} m",
+                                  length_m, i + 1, kLongestRoute_m));
+      return;
     }
   }
 }
@@ -152,12 +136,12 @@ World make_corridor(const CorridorShape& shape) {
   return world;
 }
 
-std::vector<std::string> violations(const World& world, double clearance_m) {
+std::vector<std::string> violations(const World& world) {
   if (world.corridor) return violations(*world.corridor);
   std::vector<std::string> found;
   check_surfaces(world, found);
   check_materials(world, found);
-  if (found.empty()) check_route(world, clearance_m, found);
+  check_route(world.route_m, found);
   return found;
 }
 

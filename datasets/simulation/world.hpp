@@ -46,9 +46,9 @@ World make_corridor(const CorridorShape& shape);
 World traced_world(const GridMap& map);
 
 // Everything that makes a world unfit: surfaces without length, materials out of range, coordinates
-// that are not finite or beyond 1e5 m, a route that is longer than 1e4 m, crosses a wall or comes
-// nearer to one than `clearance_m`. Empty = fit.
-std::vector<std::string> violations(const World& world, double clearance_m);
+// that are not finite or beyond 1e5 m, a route that stands still or is longer than 1e4 m. Empty =
+// fit. Whether there is room along the route: route.hpp.
+std::vector<std::string> violations(const World& world);
 
 // Reads a world file, or the [world] table of a LOG.truth.toml or of a scenario; other tables are
 // not looked at. Either the corridor's keys

@@ -203,8 +203,11 @@ World read_world_table(const toml::table& table, std::vector<TomlProblem>& probl
     world.corridor = to_shape(params);
   }
   if (!problems.empty()) return world;
-  for (std::string& line : violations(world, 0)) {
-    problems.push_back({table.source().begin.line, std::move(line)});
+  for (std::string& line : violations(world)) {
+    const bool is_route = line.starts_with("world.route_m");
+    const toml::node& node =
+        is_route ? *table.get("route_m") : static_cast<const toml::node&>(table);
+    problems.push_back({node.source().begin.line, std::move(line)});
   }
   if (problems.empty() && world.corridor) world = make_corridor(*world.corridor);
   return world;

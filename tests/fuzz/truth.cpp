@@ -14,7 +14,8 @@ bool truth(std::string_view bytes) {
   CORRIDOR_EXPECT(read->T_world_base_start.is_finite());
   const MemoryFile written(simulation::truth_toml(*read), MemoryFile::kSecond);
   const auto again = simulation::read_truth(written.path());
-  CORRIDOR_EXPECT(again.has_value() && again->slips.size() == read->slips.size());
+  CORRIDOR_EXPECT(again.has_value() && again->slips.size() == read->slips.size() &&
+                  again->imu_bias.size() == read->imu_bias.size());
   return true;
 }
 

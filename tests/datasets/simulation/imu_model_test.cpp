@@ -98,24 +98,6 @@ TEST(ImuAllanDeviation, ShowsNoiseInstabilityAndWalkAsStated) {
   }
 }
 
-TEST(ImuAllanDeviation, OfTheAccelerometersIsAsStated) {
-  const ImuParams params{
-      .rate_hz = 20, .accel_noise_mps2_rthz = 0.004, .accel_instability_mps2 = 0.01};
-  ImuModel2d imu(params, {}, 0.05, Rng(5));
-  std::vector<double> x, y;
-  for (int k = 0; k < 400'000; ++k) {
-    const ImuSample sample = imu.measure(cruising(0), cruising(0), {});
-    x.push_back(sample.accel_x_mps2);
-    y.push_back(sample.accel_y_mps2);
-  }
-  for (const auto& readings : {x, y}) {
-    EXPECT_NEAR(allan_deviation(readings, 20) / std::hypot(0.004, 0.00664), 1,
-                0.1 + allan_tolerance(20000));
-    EXPECT_NEAR(allan_deviation(readings, 2000) / std::hypot(0.0004, 0.00664), 1,
-                0.1 + allan_tolerance(200));
-  }
-}
-
 // Second differences of where the IMU is in the world, turned into its frame.
 TEST(ImuLeverArm, ReadsWhatItsPositionSaysWhenDifferentiatedTwice) {
   ImuParams params = kHonest;
@@ -227,14 +209,44 @@ TEST(FloorTilt, LeaksGravityTimesItsSineAndChangesOverItsLength) {
               5 * std::sqrt((1 + std::exp(-2.0)) / 4000));
 }
 
-TEST(FloorTilt, StaysAsItIsWhileTheRobotStands) {
+// The slope stays where it is while the robot turns on it: in the world its gravity is the same.
+TEST(FloorTilt, BelongsToTheFloorAndTurnsAgainstARobotThatTurnsOnTheSpot) {
   ImuParams params = kHonest;
   params.tilt_sigma_deg = 1;
   ImuModel2d imu(params, {}, 0.1, Rng(4));
-  const double first_mps2 = imu.measure(cruising(0), cruising(0), {}).accel_y_mps2;
-  EXPECT_NE(first_mps2, 0);
+  const ImuSample first = imu.measure(cruising(0), cruising(0), {});
+  const Eigen::Vector2d in_world(first.accel_x_mps2, first.accel_y_mps2);
+  ASSERT_GT(in_world.norm(), 0.01);
+  for (const double heading_deg : {30.0, 90.0, 180.0, 300.0}) {
+    DriveState turned = cruising(0);
+    turned.T_world_base = Pose2(0, 0, heading_deg * std::numbers::pi / 180);
+    const ImuSample sample = imu.measure(turned, turned, {});
+    const Eigen::Vector2d expected = turned.T_world_base.rotation().transpose() * in_world;
+    EXPECT_NEAR(sample.accel_x_mps2, expected.x(), kExact) << heading_deg;
+    EXPECT_NEAR(sample.accel_y_mps2, expected.y(), kExact) << heading_deg;
+  }
+}
+
+// Reading = scale x truth + bias, to the last bit but rounding, where nothing is white.
+TEST(Imu, BiasIsAllThatIsAddedToTheTruth) {
+  ImuParams params = kHonest;
+  params.gyro_instability_radps = params.gyro_walk_radps_rts = 0.01;
+  params.accel_instability_mps2 = params.accel_walk_mps2_rts = 0.1;
+  params.tilt_sigma_deg = 1;
+  params.yaw_deg = 40;
+  const ImuErrors errors{.gyro_bias_radps = 0.1,
+                         .accel_bias_x_mps2 = 0.2,
+                         .accel_bias_y_mps2 = 0.3,
+                         .accel_scale_x = 0.9,
+                         .accel_scale_y = 1.1};
+  ImuModel2d imu(params, errors, kStep_s, Rng(1));
+  EXPECT_TRUE(imu.has_varying_bias());
+  EXPECT_FALSE(ImuModel2d(kHonest, errors, kStep_s, Rng(1)).has_varying_bias());
   for (int k = 0; k < 100; ++k) {
-    EXPECT_EQ(imu.measure(cruising(0), cruising(0.0, 0.7), {}).accel_y_mps2, first_mps2);
+    const ImuSample sample = imu.measure(cruising(0.5), cruising(0.5), {});
+    EXPECT_NEAR(sample.gyro_z_radps, imu.bias().gyro_radps, kExact);
+    EXPECT_NEAR(sample.accel_x_mps2, imu.bias().accel_x_mps2, kExact);
+    EXPECT_NEAR(sample.accel_y_mps2, imu.bias().accel_y_mps2, kExact);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "datasets/simulation/simulate.hpp"
+#include "tests/datasets/simulation/from_log_support.hpp"
 #include "tests/datasets/simulation/simulation_support.hpp"
 
 namespace corridor::simulation::testing {
@@ -299,7 +300,7 @@ TEST_P(LidarErrorFromALog, IsTheOneOfTheScenarioWithinItsStandardErrors) {
   Scenario scenario = still();
   of.turn_on(scenario);
   ASSERT_EQ(violations(scenario), std::vector<std::string>{});
-  const Estimate found = of.estimate(logged_beams(through_a_file(simulate(scenario, 1).log)));
+  const Estimate found = of.estimate(logged_beams(recorded(scenario, 1).log));
   EXPECT_NEAR(found.value, of.true_value, kNumErrors * found.standard_error);
   // So that neither nothing nor half of it would do.
   EXPECT_LT(kNumErrors * found.standard_error, 0.25 * std::abs(of.true_value));

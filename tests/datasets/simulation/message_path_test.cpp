@@ -69,9 +69,9 @@ TEST(MessagePath, NothingIsStampedBeforeTheLogBegins) {
 
 TEST(SensorClocks, LidarOffsetMovesItsStampsAndNothingElse) {
   Scenario scenario;
-  const Simulated plain = simulate(scenario, 2);
+  const Simulated plain = simulated_log(scenario, 2);
   scenario.lidar.time_offset_s = 0.03;
-  const Simulated moved = simulate(scenario, 2);
+  const Simulated moved = simulated_log(scenario, 2);
   EXPECT_EQ(moved.truth.lidar_time_offset_s, 0.03);
   EXPECT_EQ(moved.log.robot.lidar.time_offset_s, 0.03);
   ASSERT_EQ(plain.log.num_scans(), moved.log.num_scans());
@@ -93,7 +93,7 @@ TEST(SensorClocks, UnstatedOffsetsHaveTheStatedSpread) {
   scenario.imu.time_offset_sigma_s = 0.002;
   std::vector<double> lidar_s, imu_s;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-    const Simulated simulated = simulate(scenario, seed);
+    const Simulated simulated = simulated_log(scenario, seed);
     EXPECT_EQ(simulated.log.robot.lidar.time_offset_s, 0.1);  // the log does not know the rest
     const Timestamp last_scan = (*simulated.log.truth)[simulated.log.truth->size() - 1].stamp;
     lidar_s.push_back(to_seconds(last_scan) - 0.5);
@@ -111,9 +111,9 @@ TEST(SensorClocks, UnstatedOffsetsHaveTheStatedSpread) {
 // Ticks count on while messages are lost: those that arrive are those of a log without losses.
 TEST(SensorClocks, LostWheelMessagesLoseNoPath) {
   Scenario scenario;
-  const Simulated whole = simulate(scenario, 4);
+  const Simulated whole = simulated_log(scenario, 4);
   scenario.wheels.message.loss_ratio = 0.3;
-  const Simulated lossy = simulate(scenario, 4);
+  const Simulated lossy = simulated_log(scenario, 4);
   std::size_t num_compared = 0;
   auto event = whole.log.events.begin();
   for (const SensorEvent& arrived : lossy.log.events) {

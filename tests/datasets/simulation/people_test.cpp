@@ -95,8 +95,8 @@ TEST(People, AreDiscsToALidarAndHideTheWallBehindThem) {
 }
 
 TEST(People, ChangeScansOnly) {
-  const Simulated alone = simulate(shipped_scenario("paper-corridor"), 2);
-  const Simulated crowded = simulate(shipped_scenario("paper-corridor-people"), 2);
+  const Simulated alone = simulated_log(shipped_scenario("paper-corridor"), 2);
+  const Simulated crowded = simulated_log(shipped_scenario("paper-corridor-people"), 2);
   ASSERT_EQ(alone.log.events.size(), crowded.log.events.size());
   int num_changed = 0;
   for (std::size_t i = 0; i < alone.log.events.size(); ++i) {

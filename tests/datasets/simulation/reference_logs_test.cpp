@@ -22,7 +22,7 @@ constexpr int kNumOurs = 20;
 std::vector<LogFigures> our_figures(const std::string& scenario) {
   std::vector<LogFigures> figures;
   for (std::uint64_t seed = 1; seed <= kNumOurs; ++seed) {
-    figures.push_back(figures_of(simulate(shipped_scenario(scenario), seed).log));
+    figures.push_back(figures_of(simulated_log(shipped_scenario(scenario), seed).log));
   }
   return figures;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/simulation/simulate.hpp"
+#include "tests/datasets/simulation/simulation_support.hpp"
 #include "tests/support/documents.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -24,7 +25,7 @@ TEST(ScenarioDocuments, EveryExampleOfTheReadmeGivesALogWithoutDefects) {
     for (const std::string& member : *members) {
       const auto scenario = load_scenario(member);
       ASSERT_TRUE(scenario.has_value()) << scenario.error().to_line();
-      EXPECT_EQ(defects(simulate(*scenario, 1).log), std::vector<std::string>{}) << member;
+      EXPECT_EQ(defects(simulated_log(*scenario, 1).log), std::vector<std::string>{}) << member;
     }
   }
 }

@@ -45,8 +45,9 @@ TEST(ScenarioFiles, EveryShortMemberOfAFamilyGivesALogWithoutDefects) {
     for (const std::string& member : *members) {
       const auto scenario = load_scenario(member);
       ASSERT_TRUE(scenario) << error_of(scenario);
-      if (scenario->world.corridor->b_m > 40) continue;
-      const Simulated simulated = simulate(*scenario, 1);
+      const bool is_long = scenario->world.corridor && scenario->world.corridor->b_m > 40;
+      if (is_long) continue;
+      const Simulated simulated = simulated_log(*scenario, 1);
       EXPECT_EQ(defects(simulated.log), std::vector<std::string>{}) << member;
       EXPECT_EQ(simulated.log.provenance.notes, std::vector<std::string>{}) << member;
     }
@@ -95,12 +96,34 @@ TEST(ScenarioFamily, NamesWhatIsWrongWithItsTable) {
   };
   EXPECT_TRUE(contains(error("[family]\nvalues = [1]\n"), "f.toml:1: family.key"));
   EXPECT_TRUE(contains(error("[family]\nkey = \"a.b\"\n"), "family.values"));
-  EXPECT_TRUE(contains(error("[family]\nkey = \"a.b\"\nvalues = [1, \"x\"]\n"),
-                       "f.toml:3: family.values: expected numbers"));
+  EXPECT_TRUE(contains(error("[family]\nkey = \"a.b\"\nvalues = [1, \"x y\"]\n"),
+                       "f.toml:3: family.values: expected numbers, or names"));
+  EXPECT_TRUE(contains(error("[family]\nkey = \"imu.rate_hz\"\nvalues = [4, 8, 4.0]\n"),
+                       "f.toml:3: family.values: 4 stands there twice"));
+  for (const char* key :
+       {"a.b", "lidar.range_max", "imux.preset", "drive.preset", "imu.x.preset", "name"}) {
+    const std::string text = std::string("[family]\nkey = \"") + key + "\"\nvalues = [1]\n";
+    EXPECT_TRUE(contains(error(text), std::string("f.toml:2: unknown scenario key ") + key))
+        << error(text);
+  }
   EXPECT_TRUE(contains(error("[family]\nkey = \"a.b\"\nvalues = [1]\nstep = 2\n"),
                        "f.toml:4: unknown key family.step"));
-  const auto path = folder.write("g.toml", "[family]\nkey = \"a.b\"\nvalues = [1]\n");
-  EXPECT_TRUE(contains(error_of(load_scenario(path.string() + "@1")), "unknown scenario key a.b"));
+}
+
+TEST(ScenarioFamily, OfPresetsHasOneMemberPerSensorUnderTheFilesOwnKeys) {
+  const ScratchFolder folder;
+  const auto path = folder.write("mine.toml",
+                                 "base = \"paper-corridor\"\n[imu]\ngyro_bias_sigma_radps = 0.5\n"
+                                 "[family]\nkey = \"imu.preset\"\n"
+                                 "values = [\"industrial\", \"consumer\", \"missing\"]\n");
+  const auto members = scenario_members(path.string());
+  ASSERT_TRUE(members) << error_of(members);
+  const auto scenario = load_scenario(members->at(1));
+  ASSERT_TRUE(scenario) << error_of(scenario);
+  EXPECT_EQ(scenario->name, "mine@consumer");
+  EXPECT_EQ(scenario->imu.gyro_noise_radps_rthz, 8.7e-5);
+  EXPECT_EQ(scenario->imu.gyro_bias_sigma_radps, 0.5);
+  EXPECT_TRUE(contains(error_of(load_scenario(members->at(2))), "unknown preset imu.missing"));
 }
 
 TEST(ScenarioBase, GivesItsValuesUnlessTheFileSetsThem) {
@@ -229,7 +252,7 @@ TEST(SensorPresets, AllCarryAScenario) {
   const ScratchFolder folder;
   for (const auto& [section, names] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {"lidar", {"urg-04lx", "rplidar-a1", "utm-30lx"}},
-           {"imu", {"consumer", "industrial"}},
+           {"imu", {"industrial", "consumer", "hobby"}},
            {"wheels", {"good", "poor"}}}) {
     for (const std::string& name : names) {
       auto scenario =
@@ -237,7 +260,7 @@ TEST(SensorPresets, AllCarryAScenario) {
       ASSERT_TRUE(scenario) << error_of(scenario);
       scenario->drive.stays = true;
       scenario->drive.spin_turns = 0.5;
-      EXPECT_EQ(defects(simulate(*scenario, 1).log), std::vector<std::string>{}) << name;
+      EXPECT_EQ(defects(simulated_log(*scenario, 1).log), std::vector<std::string>{}) << name;
     }
   }
 }

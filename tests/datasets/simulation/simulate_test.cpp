@@ -7,19 +7,11 @@
 #include <numbers>
 
 #include "datasets/simulation/ray_casting.hpp"
+#include "tests/datasets/simulation/from_log_support.hpp"
 #include "tests/datasets/simulation/simulation_support.hpp"
 
 namespace corridor::simulation::testing {
 namespace {
-
-template <class T>
-std::vector<T> readings(const SensorLog& log) {
-  std::vector<T> found;
-  for (const SensorEvent& event : log.events) {
-    if (const auto* reading = std::get_if<T>(&event)) found.push_back(*reading);
-  }
-  return found;
-}
 
 bool is_same(const WheelSample& a, const WheelSample& b) {
   return a.stamp == b.stamp && a.T_odom_base == b.T_odom_base && a.ticks->left == b.ticks->left &&
@@ -52,7 +44,7 @@ TEST(Simulate, EveryShippedScenarioGivesALogWithoutDefects) {
     ASSERT_TRUE(scenario) << scenario.error().to_line();
     if (scenario->name == "floor") continue;  // 548 m; the other drawn worlds stand for it
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      const Simulated simulated = simulate(*scenario, seed);
+      const Simulated simulated = simulated_log(*scenario, seed);
       EXPECT_EQ(defects(simulated.log), std::vector<std::string>{}) << path << " seed " << seed;
       EXPECT_EQ(simulated.log.provenance.notes, std::vector<std::string>{}) << path;
       EXPECT_EQ(simulated.log.truth->size(), simulated.log.num_scans());
@@ -62,8 +54,8 @@ TEST(Simulate, EveryShippedScenarioGivesALogWithoutDefects) {
 
 TEST(Simulate, SameSeedGivesTheSameBytes) {
   const Scenario scenario = shipped_scenario("paper-corridor-slip");
-  const Simulated one = simulate(scenario, 4);
-  const Simulated again = simulate(scenario, 4);
+  const Simulated one = simulated_log(scenario, 4);
+  const Simulated again = simulated_log(scenario, 4);
   EXPECT_TRUE(is_same(readings<LaserScan>(one.log), readings<LaserScan>(again.log)));
   EXPECT_TRUE(is_same(readings<WheelSample>(one.log), readings<WheelSample>(again.log)));
   EXPECT_TRUE(is_same(readings<ImuSample>(one.log), readings<ImuSample>(again.log)));
@@ -72,8 +64,8 @@ TEST(Simulate, SameSeedGivesTheSameBytes) {
 }
 
 TEST(Simulate, AnotherLidarRangeLeavesDriveWheelsAndImuAsTheyWere) {
-  const Simulated near = simulate(shipped_scenario("paper-corridor"), 2);
-  const Simulated far = simulate(shipped_scenario("paper-corridor-12m"), 2);
+  const Simulated near = simulated_log(shipped_scenario("paper-corridor"), 2);
+  const Simulated far = simulated_log(shipped_scenario("paper-corridor-12m"), 2);
   EXPECT_TRUE(is_same(readings<WheelSample>(near.log), readings<WheelSample>(far.log)));
   EXPECT_TRUE(is_same(readings<ImuSample>(near.log), readings<ImuSample>(far.log)));
   EXPECT_TRUE(is_same_truth(near.log, far.log));
@@ -81,8 +73,8 @@ TEST(Simulate, AnotherLidarRangeLeavesDriveWheelsAndImuAsTheyWere) {
 }
 
 TEST(Simulate, SlipsChangeTheWheelsOnly) {
-  const Simulated plain = simulate(shipped_scenario("paper-corridor"), 2);
-  const Simulated slipping = simulate(shipped_scenario("paper-corridor-slip"), 2);
+  const Simulated plain = simulated_log(shipped_scenario("paper-corridor"), 2);
+  const Simulated slipping = simulated_log(shipped_scenario("paper-corridor-slip"), 2);
   EXPECT_TRUE(is_same(readings<LaserScan>(plain.log), readings<LaserScan>(slipping.log)));
   EXPECT_TRUE(is_same(readings<ImuSample>(plain.log), readings<ImuSample>(slipping.log)));
   EXPECT_FALSE(is_same(readings<WheelSample>(plain.log), readings<WheelSample>(slipping.log)));
@@ -90,8 +82,8 @@ TEST(Simulate, SlipsChangeTheWheelsOnly) {
 
 TEST(Simulate, WheelsTurnSixTenthsMoreDuringEachSlip) {
   const Scenario slipping = shipped_scenario("paper-corridor-slip");
-  const Simulated with_slips = simulate(slipping, 3);
-  const Simulated without = simulate(shipped_scenario("paper-corridor"), 3);
+  const Simulated with_slips = simulated_log(slipping, 3);
+  const Simulated without = simulated_log(shipped_scenario("paper-corridor"), 3);
   const auto spinning = readings<WheelSample>(with_slips.log);
   const auto gripping = readings<WheelSample>(without.log);
   ASSERT_EQ(with_slips.truth.slips.size(), 3u);
@@ -112,7 +104,7 @@ TEST(Simulate, SlipsNeverOverlapAndLieInsideTheDrive) {
   Scenario scenario = shipped_scenario("paper-corridor-slip");
   scenario.slip.num_slips = 12;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Simulated simulated = simulate(scenario, seed);
+    const Simulated simulated = simulated_log(scenario, seed);
     double last_end_s = 0;
     for (const SlipInterval& slip : simulated.truth.slips) {
       EXPECT_GE(slip.begin_s, last_end_s - 1e-9);
@@ -124,8 +116,8 @@ TEST(Simulate, SlipsNeverOverlapAndLieInsideTheDrive) {
 
 TEST(Simulate, SeedsDifferInEveryDrawnThing) {
   const Scenario scenario = shipped_scenario("paper-corridor-vary");
-  const SimulationTruth one = simulate(scenario, 1).truth;
-  const SimulationTruth other = simulate(scenario, 2).truth;
+  const SimulationTruth one = simulated_log(scenario, 1).truth;
+  const SimulationTruth other = simulated_log(scenario, 2).truth;
   EXPECT_NE(one.world.corridor->a_m, other.world.corridor->a_m);
   EXPECT_NE(one.world.corridor->b_m, other.world.corridor->b_m);
   EXPECT_NE(one.world.corridor->c_m, other.world.corridor->c_m);
@@ -138,7 +130,7 @@ TEST(Simulate, SeedsDifferInEveryDrawnThing) {
 }
 
 TEST(Simulate, LogStatesTheNominalCalibrationAndNotTheDrawnErrors) {
-  const Simulated one = simulate(shipped_scenario("paper-corridor"), 1);
+  const Simulated one = simulated_log(shipped_scenario("paper-corridor"), 1);
   EXPECT_EQ(one.log.robot.wheels.left_m_per_tick, 1e-4);
   EXPECT_EQ(one.log.robot.wheels.right_m_per_tick, 1e-4);
   EXPECT_EQ(one.log.robot.wheels.track_m, 0.35);
@@ -147,7 +139,7 @@ TEST(Simulate, LogStatesTheNominalCalibrationAndNotTheDrawnErrors) {
 }
 
 TEST(Simulate, EventsAtEqualStampsAreWheelsThenImuThenScan) {
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), 1);
   const auto rank = [](const SensorEvent& event) {
     return std::holds_alternative<WheelSample>(event) ? 0 : event.index() == 2 ? 1 : 2;
   };
@@ -162,7 +154,7 @@ TEST(Simulate, EventsAtEqualStampsAreWheelsThenImuThenScan) {
 }
 
 TEST(Simulate, RatesAreThoseOfTheSuitesRobotAndStampsAreExact) {
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), 1);
   const auto scans = readings<LaserScan>(simulated.log);
   const auto wheels = readings<WheelSample>(simulated.log);
   const auto imu = readings<ImuSample>(simulated.log);
@@ -177,7 +169,7 @@ TEST(Simulate, RatesAreThoseOfTheSuitesRobotAndStampsAreExact) {
 // Dead reckoning with the true biases taken off: what is left is white noise, which grows as a
 // walk.
 TEST(Simulate, ImuIntegratesToTheTrueMotion) {
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 6);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), 6);
   const auto imu = readings<ImuSample>(simulated.log);
   const Pose2 start = simulated.truth.T_world_base_start;
   const double step_s = 0.005;
@@ -199,7 +191,7 @@ TEST(Simulate, ImuIntegratesToTheTrueMotion) {
 }
 
 TEST(Simulate, RangeNoiseIsNewInEveryScan) {
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), 1);
   const RayCaster caster(simulated.world);
   const auto scans = readings<LaserScan>(simulated.log);
   const double sigma_m = simulated.truth.range_sigma_m;
@@ -223,7 +215,7 @@ TEST(Simulate, RangeNoiseIsNewInEveryScan) {
 }
 
 TEST(Simulate, CentripetalAccelerationShowsAtTheCorner) {
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), 1);
   double most_mps2 = 0;
   double sum_mps2 = 0;
   for (const ImuSample& sample : readings<ImuSample>(simulated.log)) {
@@ -236,7 +228,7 @@ TEST(Simulate, CentripetalAccelerationShowsAtTheCorner) {
 
 TEST(Simulate, OdometryCarriesTheDrawnScaleOverTheWholePath) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Simulated simulated = simulate(shipped_scenario("paper-corridor"), seed);
+    const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), seed);
     const double scale =
         0.5 * (simulated.truth.wheels.left_scale + simulated.truth.wheels.right_scale);
     // 25 m at 1 mm per root metre and wheel: 3.5 mm, 0.014 %; times 5.
@@ -245,7 +237,7 @@ TEST(Simulate, OdometryCarriesTheDrawnScaleOverTheWholePath) {
 }
 
 TEST(Simulate, TruthNamesTheArmsAsDegenerateWhereTheLidarSeesNoEnd) {
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor"), 1);
   for (const DegenerateInterval& interval : *simulated.truth.degenerate) {
     const Pose2 begin = *simulated.log.truth->interpolate(timestamp_from_seconds(interval.begin_s));
     const Pose2 end = *simulated.log.truth->interpolate(timestamp_from_seconds(interval.end_s));
@@ -263,7 +255,7 @@ TEST(Simulate, TruthNamesTheArmsAsDegenerateWhereTheLidarSeesNoEnd) {
 }
 
 TEST(Simulate, LongRangeLidarIsNeverDegenerate) {
-  EXPECT_TRUE(simulate(shipped_scenario("paper-corridor-12m"), 1).truth.degenerate->empty());
+  EXPECT_TRUE(simulated_log(shipped_scenario("paper-corridor-12m"), 1).truth.degenerate->empty());
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "datasets/formats/log_io.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 namespace corridor::simulation::testing {
 namespace {
@@ -158,17 +156,6 @@ Scenario shipped_scenario(const std::string& name) {
   return *scenario;
 }
 
-SensorLog through_a_file(const SensorLog& log) {
-  const ::corridor::testing::ScratchFolder folder;
-  const auto path = folder / "log.rawlog";
-  if (const auto written = formats::write_log(log, path); !written) {
-    throw std::runtime_error(written.error().to_line());
-  }
-  auto read = formats::read_log(path);
-  if (!read) throw std::runtime_error(read.error().to_line());
-  return std::move(*read);
-}
-
 std::vector<LoggedBeam> logged_beams(const SensorLog& log) {
   std::vector<LoggedBeam> beams;
   std::size_t scan_index = 0;
@@ -183,6 +170,12 @@ std::vector<LoggedBeam> logged_beams(const SensorLog& log) {
     }
   }
   return beams;
+}
+
+Simulated simulated_log(const Scenario& scenario, std::uint64_t seed) {
+  Result<Simulated> simulated = simulate(scenario, seed);
+  if (!simulated) throw std::runtime_error(simulated.error().to_line());
+  return std::move(*simulated);
 }
 
 LogFigures figures_of(const SensorLog& log) {

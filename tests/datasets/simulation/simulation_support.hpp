@@ -5,6 +5,7 @@
 
 #include "datasets/simulation/robot_drive.hpp"
 #include "datasets/simulation/scenario.hpp"
+#include "datasets/simulation/simulate.hpp"
 #include "datasets/simulation/world.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/core/sensor_log.hpp"
@@ -42,9 +43,6 @@ double median(std::vector<double> values);
 // A scenario file of datasets/scenarios/, which must be readable.
 Scenario shipped_scenario(const std::string& name);
 
-// The log as its reader gets it: written into a rawlog of its own and read back.
-SensorLog through_a_file(const SensorLog& log);
-
 // What a log says of one beam, and where the robot was.
 struct LoggedBeam {
   Pose2 T_world_base;  // at the scan's stamp
@@ -56,6 +54,8 @@ struct LoggedBeam {
 };
 // Of all scans in order. Requires a true pose per scan.
 std::vector<LoggedBeam> logged_beams(const SensorLog& log);
+// What simulate() gives, which must be a log.
+Simulated simulated_log(const Scenario& scenario, std::uint64_t seed);
 
 // Figures of a log that need nothing but the log and its truth at the scans.
 struct LogFigures {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "datasets/simulation/simulate.hpp"
+#include "tests/datasets/simulation/from_log_support.hpp"
 #include "tests/datasets/simulation/simulation_support.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -90,7 +91,7 @@ TEST(StatedRangeNoise, IsThatOfTheLogForEveryPreset) {
           folder.write("x.toml", "base = \"" + world + "\"\n[lidar]\npreset = \"" + preset +
                                      "\"\n[drive]\nstand_s = 2\nstays = true\n"));
       ASSERT_TRUE(scenario) << scenario.error().to_line();
-      const SensorLog log = through_a_file(simulate(*scenario, 1).log);
+      const SensorLog log = recorded(*scenario, 1).log;
       stated_m = log.robot.lidar.range_sigma_m;
       const auto found_m2 = square_errors_m2(*scenario, log);
       squares_m2.insert(squares_m2.end(), found_m2.begin(), found_m2.end());

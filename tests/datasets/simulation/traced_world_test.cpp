@@ -93,7 +93,7 @@ TEST(TracedWorld, OfARosMapCarriesAScenario) {
                                  "[lidar]\nrange_sigma_m = 0\n");
   const auto scenario = read_scenario(path);
   ASSERT_TRUE(scenario) << scenario.error().to_line();
-  const Simulated simulated = simulate(*scenario, 1);
+  const Simulated simulated = simulated_log(*scenario, 1);
   EXPECT_EQ(defects(simulated.log), std::vector<std::string>{});
   EXPECT_TRUE(simulated.log.provenance.notes.empty());
   // The hall's inside is 14 m x 4 m from (0, 0).
@@ -138,7 +138,7 @@ Scenario turned_corridor(double turned_rad) {
 }
 
 TEST(TracedWorld, TurnedCorridorIsDegenerateAlongItselfAtTheSameTimes) {
-  const Simulated straight = simulate(turned_corridor(0), 1);
+  const Simulated straight = simulated_log(turned_corridor(0), 1);
   ASSERT_EQ(straight.truth.degenerate->size(), 1u);
   const DegenerateInterval expected = straight.truth.degenerate->front();
   EXPECT_GT(expected.end_s - expected.begin_s, 10);
@@ -146,7 +146,7 @@ TEST(TracedWorld, TurnedCorridorIsDegenerateAlongItselfAtTheSameTimes) {
     SCOPED_TRACE(turned_deg);
     const double turned_rad = turned_deg * std::numbers::pi / 180;
     const Scenario scenario = turned_corridor(turned_rad);
-    const Simulated turned = simulate(scenario, 1);
+    const Simulated turned = simulated_log(scenario, 1);
     ASSERT_EQ(turned.truth.degenerate->size(), 1u);
     const DegenerateInterval found = turned.truth.degenerate->front();
     // The end walls lie within two cells of one another: 0.2 s of driving, and a scan.

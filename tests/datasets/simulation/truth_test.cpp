@@ -24,7 +24,7 @@ constexpr const char* kForeignTruth =
 
 TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
   const ScratchFolder folder;
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor-slip"), 5);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor-slip"), 5);
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
@@ -42,7 +42,7 @@ TEST(Truth, NamesScansThatSeeNothingWithoutADirection) {
   scenario.lidar.range_max_m = 1.5;
   scenario.drive.stand_s = 1;
   scenario.drive.stays = true;
-  Simulated simulated = simulate(scenario, 1);
+  Simulated simulated = simulated_log(scenario, 1);
   ASSERT_EQ(simulated.truth.degenerate->size(), 1u);
   EXPECT_FALSE(simulated.truth.degenerate->front().direction_rad);
   simulated.truth.degenerate->push_back({2, 3, 0.5});
@@ -58,7 +58,7 @@ TEST(Truth, NamesScansThatSeeNothingWithoutADirection) {
 
 TEST(Truth, IsTheWorldFileOfItsLog) {
   const ScratchFolder folder;
-  const Simulated simulated = simulate(shipped_scenario("paper-corridor-vary"), 5);
+  const Simulated simulated = simulated_log(shipped_scenario("paper-corridor-vary"), 5);
   const auto world = read_world(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(world) << world.error().to_line();
   EXPECT_EQ(world->corridor->b_m, simulated.truth.world.corridor->b_m);
@@ -113,7 +113,7 @@ TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
   scenario.drive.friction_limit_mps2 = 0.3;
   scenario.slip.num_slips = 2;
   scenario.imu.time_offset_sigma_s = 0.01;
-  const Simulated simulated = simulate(scenario, 5);
+  const Simulated simulated = simulated_log(scenario, 5);
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(truth_toml(*again), truth_toml(simulated));
@@ -121,6 +121,11 @@ TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
   EXPECT_EQ(again->wheels.track_ratio, simulated.truth.wheels.track_ratio);
   EXPECT_EQ(again->lidar_time_offset_s, simulated.truth.lidar_time_offset_s);
   EXPECT_EQ(again->imu_time_offset_s, simulated.truth.imu_time_offset_s);
+  ASSERT_EQ(again->imu_bias.size(), static_cast<std::size_t>(simulated.log.duration_s()));
+  EXPECT_EQ(again->imu_bias.back().stamp_s, static_cast<double>(again->imu_bias.size()));
+  EXPECT_EQ(again->imu_bias.back().bias.accel_y_mps2,
+            simulated.truth.imu_bias.back().bias.accel_y_mps2);
+  EXPECT_NE(again->imu_bias.back().bias.gyro_radps, again->imu_bias.front().bias.gyro_radps);
   ASSERT_EQ(again->slips.size(), simulated.truth.slips.size());
   ASSERT_GT(again->slips.size(), 2u);
   for (std::size_t i = 0; i < again->slips.size(); ++i) {
@@ -131,7 +136,7 @@ TEST(Truth, RicherErrorsAndGripSlipsAreReadBack) {
 
 TEST(Truth, CarriesADrawnWorld) {
   const ScratchFolder folder;
-  const Simulated simulated = simulate(shipped_scenario("clutter"), 1);
+  const Simulated simulated = simulated_log(shipped_scenario("clutter"), 1);
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
   EXPECT_EQ(again->world.walls.size(), simulated.world.walls.size());

@@ -16,7 +16,7 @@ SensorLog corridor_log(const std::string& scenario_name, std::uint64_t seed) {
   const auto scenario = simulation::read_scenario(std::string(CORRIDOR_SOURCE_DIR) +
                                                   "/datasets/scenarios/" + scenario_name + ".toml");
   EXPECT_TRUE(scenario.has_value());
-  return simulation::simulate(*scenario, seed).log;
+  return simulation::simulate(*scenario, seed).value().log;
 }
 
 struct Outcome {
