@@ -7,7 +7,7 @@
 
 namespace corridor::cli {
 
-Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::filesystem::path& out,
+Result<ExitCode> convert_graph(const std::string& in, const std::filesystem::path& out,
                                const CommonOptions& common) {
   const auto target = formats::graph_format_from_suffix(out);
   if (!target) {
@@ -16,7 +16,9 @@ Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::files
   }
   if (const Result<void> good = check_targets({out}); !good)
     return tl::make_unexpected(good.error());
-  const auto graph = formats::read_pose_graph(in);
+  const Result<catalog::Catalog> known = catalog::read_catalog();
+  if (!known) return tl::make_unexpected(known.error());
+  const auto graph = catalog::load_graph(in, common.data_dirs(), *known);
   if (!graph) return tl::make_unexpected(graph.error());
   if (const Result<void> written = formats::write_pose_graph(*graph, out); !written) {
     return tl::make_unexpected(written.error());

@@ -140,6 +140,7 @@ class TicksParser {
 
 Result<ParsedLog> parse_ticks(std::string_view text, const std::string& file,
                               const RobotModel& robot) {
+  const auto note = note_on_end(text);
   TicksParser parser(file, robot);
   std::uint64_t line_number = 0;
   while (const auto line = take_line(text)) {
@@ -147,7 +148,9 @@ Result<ParsedLog> parse_ticks(std::string_view text, const std::string& file,
       return tl::make_unexpected(taken.error());
     }
   }
-  return parser.finish();
+  ParsedLog log = parser.finish();
+  if (note) log.notes.push_back(*note);
+  return log;
 }
 
 }  // namespace corridor::formats

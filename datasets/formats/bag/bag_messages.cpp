@@ -58,10 +58,10 @@ Result<void> check_geometry(const ros1::Scan& scan, const std::string& where) {
                             scan.angle_max_rad, scan.angle_increment_rad));
   }
   if (exceeds_full_turn(scan.ranges_m.size(), scan.angle_increment_rad)) {
-    return fail(ErrorCode::kInvalid,
-                fmt::format("{} beams in steps of {} rad", scan.ranges_m.size(),
-                            scan.angle_increment_rad),
-                where, "a fan of at most 2 pi (degrees for radians?)");
+    return fail(
+        ErrorCode::kInvalid,
+        fmt::format("{} beams in steps of {} rad", scan.ranges_m.size(), scan.angle_increment_rad),
+        where, "a fan of at most 2 pi (degrees for radians?)");
   }
   if (!(std::abs(sweep_s(scan)) <= kMaxSweep_s)) {
     return fail(ErrorCode::kInvalid, fmt::format("a sweep of {} s", sweep_s(scan)), where,

@@ -368,8 +368,9 @@ TEST(Bag, TheFramingListsEveryMessageWithItsByte) {
 TEST(Bag, SaysWhatItCannotHold) {
   const SensorLog log = test::small_log();
   const auto losses = losses_of_conversion(log, LogFormat::kRosbag);
-  ASSERT_EQ(losses.size(), 3U);
+  ASSERT_EQ(losses.size(), 2U);  // its angles are exact in 32-bit floats
   EXPECT_NE(losses[0].find("ticks"), std::string::npos);
+  EXPECT_NE(losses[1].find("robot model"), std::string::npos);
   SensorLog early = log;
   std::get<ImuSample>(early.events.front()).stamp.nanoseconds = -1;
   const ScratchFolder folder;
