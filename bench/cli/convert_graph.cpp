@@ -3,6 +3,7 @@
 #include "bench/cli/conversions.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/exit_code.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 
 namespace corridor::cli {
@@ -16,7 +17,7 @@ Result<ExitCode> convert_graph(const std::string& in, const std::filesystem::pat
   }
   if (const Result<void> good = check_targets({out}); !good)
     return tl::make_unexpected(good.error());
-  const Result<catalog::Catalog> known = catalog::read_catalog();
+  const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   const auto graph = catalog::load_graph(in, common.data_dirs(), *known);
   if (!graph) return tl::make_unexpected(graph.error());

@@ -26,7 +26,7 @@ void DataVerifyCommand::add_to(CLI::App& command) {
 }
 
 Result<ExitCode> DataVerifyCommand::run() const {
-  const Result<catalog::Catalog> known = catalog::read_catalog();
+  const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   std::vector<std::string> wanted = names;
   if (wanted.empty()) {

@@ -120,7 +120,7 @@ void FetchCommand::add_to(CLI::App& command) {
 }
 
 Result<ExitCode> FetchCommand::run() const {
-  const Result<catalog::Catalog> known = catalog::read_catalog();
+  const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   const auto wanted = wanted_of(*known, names);
   if (!wanted) return tl::make_unexpected(wanted.error());
@@ -138,7 +138,7 @@ Result<ExitCode> FetchCommand::run() const {
       options.on_progress = [&](std::uint64_t num_bytes, std::optional<std::uint64_t> num_total) {
         progress.draw(entry->name, num_bytes, num_total);
       };
-      *files = catalog::fetch_dataset(*entry, *folder, options);
+      *files = catalog::fetch_dataset(*entry, entry->folder.value_or(*folder), options);
       progress.erase();
     }
     for (const FetchedFile& file : *files) {

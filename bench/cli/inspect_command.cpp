@@ -13,6 +13,7 @@
 
 #include "bench/cli/log_report.hpp"
 #include "bench/runner/exit_code.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/log_health.hpp"
 #include "datasets/formats/trajectories/relations.hpp"
 
@@ -22,11 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Relations that cannot be read are a note, as truth that cannot be.
-std::optional<std::size_t> num_relations_of(const fs::path& log, std::vector<std::string>& notes) {
-  const fs::path path = formats::sidecar_of(log, ".relations");
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) return std::nullopt;
-  const auto relations = formats::read_relations(path);
+std::optional<std::size_t> num_relations_of(const catalog::LogSource& source,
+                                            std::vector<std::string>& notes) {
+  const auto path = formats::find_sidecar(source.path, ".relations", source.options);
+  if (!path) return std::nullopt;
+  const auto relations = formats::read_relations(*path);
   if (relations) {
     const std::size_t num_repeated = formats::num_repeated(*relations);
     if (num_repeated > 0) notes.push_back(fmt::format("{} relations stand twice", num_repeated));
@@ -42,7 +43,7 @@ Result<catalog::LogSource> find(const std::string& log, const CommonOptions& com
     return fail(ErrorCode::kInvalid, "this is a folder", log,
                 "a log file, or the name of a data set");
   }
-  const Result<catalog::Catalog> known = catalog::read_catalog();
+  const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   catalog::LoadOptions options;
   options.accept_other_checksum = true;  // looked at, and said; nothing is scored
@@ -70,7 +71,7 @@ Result<ExitCode> InspectCommand::run() const {
 
   const formats::EventPlaces places{std::move(found->origins), found->origin_unit};
   const formats::LogHealth health = formats::examine(found->log, places);
-  const auto num_relations = num_relations_of(source->path, notes);
+  const auto num_relations = num_relations_of(*source, notes);
   const LogReport report{&found->log, &health, num_relations};
   const std::string text =
       is_json ? to_json(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"

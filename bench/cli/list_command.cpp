@@ -84,9 +84,10 @@ Result<Listing> list_backends(const CommonOptions&) {
 }
 
 Result<Listing> list_datasets(const CommonOptions& common) {
-  const Result<catalog::Catalog> known = catalog::read_catalog();
+  const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   Listing listing{Json::array(), {"name", "format", "truth", "is_found", "is_fetchable", "title"}};
+  bool has_own = false;
   for (const catalog::DatasetRow& row : catalog::list_datasets(*known, common.data_dirs())) {
     listing.items.push_back(
         {{"name", row.name},
@@ -99,8 +100,11 @@ Result<Listing> list_datasets(const CommonOptions& common) {
          {"licence", row.licence},
          {"source", row.source},
          {"is_fetchable", row.is_fetchable},
-         {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)}});
+         {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)},
+         {"catalogue", row.catalog_file.string()}});
+    has_own = has_own || row.is_own;
   }
+  if (has_own) listing.columns.insert(listing.columns.end() - 1, "catalogue");
   return listing;
 }
 

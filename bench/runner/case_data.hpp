@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/runner/case_spec.hpp"
-#include "datasets/catalog/catalog.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/trajectories/relations.hpp"
 #include "datasets/simulation/truth.hpp"
 #include "datasets/simulation/world.hpp"

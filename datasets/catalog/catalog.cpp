@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 
 #include "datasets/catalog/checksum.hpp"
@@ -53,13 +52,17 @@ std::string_view to_text(FileStatus status) {
   return status == FileStatus::kDiffers ? "differs" : "missing";
 }
 
-bool CatalogEntry::is_readable() const {
-  constexpr std::array<std::string_view, 5> kReadable = {"carmen", "rawlog", "lcm", "ticks",
-                                                         "rosbag"};
-  return std::find(kReadable.begin(), kReadable.end(), format) != kReadable.end();
-}
-
 bool CatalogEntry::is_graph() const { return format == "g2o" || format == "toro"; }
+
+std::vector<std::string> CatalogEntry::sidecars() const {
+  std::vector<std::string> suffixes;
+  for (const std::string_view suffix : formats::kSidecarSuffixes) {
+    const auto path = formats::sidecar_of(files.front().path, suffix).lexically_normal();
+    const auto is_it = [&](const DataFile& file) { return file.path.lexically_normal() == path; };
+    if (std::any_of(files.begin() + 1, files.end(), is_it)) suffixes.emplace_back(suffix);
+  }
+  return suffixes;
+}
 
 const CatalogEntry* Catalog::find(std::string_view name) const {
   for (const CatalogEntry& entry : entries) {
@@ -68,7 +71,7 @@ const CatalogEntry* Catalog::find(std::string_view name) const {
   return nullptr;
 }
 
-std::filesystem::path default_catalog_path() {
+std::filesystem::path main_catalog_path() {
   return path_from_environment("CORRIDOR_BENCH_CATALOG").value_or(CORRIDOR_CATALOG_FILE);
 }
 
@@ -78,10 +81,12 @@ bool is_file(const std::filesystem::path& path) {
 }
 
 std::optional<std::filesystem::path> find_folder(const CatalogEntry& entry, const DataDirs& dirs) {
-  for (const std::filesystem::path& folder : dirs.folders) {
-    if (is_file(folder / entry.files.front().path)) return folder;
-  }
-  return std::nullopt;
+  const auto has_it = [&](const std::filesystem::path& folder) {
+    return is_file(folder / entry.files.front().path);
+  };
+  if (entry.folder) return has_it(*entry.folder) ? entry.folder : std::nullopt;
+  const auto found = std::find_if(dirs.folders.begin(), dirs.folders.end(), has_it);
+  return found == dirs.folders.end() ? std::nullopt : std::optional(*found);
 }
 
 std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& dirs) {
@@ -89,9 +94,10 @@ std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& di
   for (const CatalogEntry& entry : catalog.entries) {
     const auto folder = find_folder(entry, dirs);
     const auto path = folder ? *folder / entry.files.front().path : std::filesystem::path();
-    rows.push_back({entry.name, entry.title, folder.has_value(), entry.is_readable(), path,
+    rows.push_back({entry.name, entry.title, folder.has_value(), !entry.is_graph(), path,
                     entry.format, entry.truth, entry.licence, entry.source,
-                    entry.not_fetchable.empty(), entry.not_fetchable});
+                    entry.not_fetchable.empty(), entry.not_fetchable, entry.catalog_file,
+                    entry.folder.has_value()});
   }
   return rows;
 }

@@ -1,7 +1,8 @@
-// The data sets the suite knows by name, where their files lie, and how to load one.
-// It downloads nothing (fetch.hpp does) and decides nothing about scoring.
+// The data sets the suite knows by name, and where their files lie.
+// It loads none (load_dataset.hpp does) and downloads nothing (fetch.hpp does).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,11 +10,9 @@
 #include <vector>
 
 #include "datasets/formats/bag/bag_topics.hpp"
-#include "datasets/formats/graphs/pose_graph.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/trajectories/relations.hpp"
 #include "slam/core/result.hpp"
-#include "slam/core/sensor_log.hpp"
+#include "slam/core/robot_model.hpp"
 
 namespace corridor::catalog {
 
@@ -62,9 +61,14 @@ struct CatalogEntry {
   std::optional<RobotModel> robot;  // calibration for logs that carry none
   formats::RawSensors raw;
   std::optional<formats::BagTopics> topics;  // of a ROS bag
+  // Where it is stated, and the data folder that alone has its files; none: any data folder.
+  std::filesystem::path catalog_file;
+  std::uint32_t line = 0;
+  std::optional<std::filesystem::path> folder;
 
-  [[nodiscard]] bool is_readable() const;  // as a sensor log
-  [[nodiscard]] bool is_graph() const;
+  [[nodiscard]] bool is_graph() const;  // else a sensor log
+  // The suffixes of the files that lie beside the log, of formats::kSidecarSuffixes.
+  [[nodiscard]] std::vector<std::string> sidecars() const;
 };
 
 struct Catalog {
@@ -74,58 +78,21 @@ struct Catalog {
 
 // The catalog.toml of the source tree the program was built from; $CORRIDOR_BENCH_CATALOG
 // overrides.
-std::filesystem::path default_catalog_path();
+std::filesystem::path main_catalog_path();
 
-// The Error lists every violation: unknown keys, missing keys, names given twice, bad checksums.
-Result<Catalog> read_catalog(const std::filesystem::path& path = default_catalog_path());
+// The Error lists every violation with its line: unknown keys, missing keys, names given twice, bad
+// checksums, formats and truth that do not fit the files.
+Result<Catalog> read_catalog(const std::filesystem::path& path);
 
-struct LoadOptions {
-  std::optional<formats::StampOrder> order;  // instead of the catalogue's (or kStamp for a file)
-  // Load a catalogued log although its bytes are not those of the catalogue; noted in provenance.
-  bool accept_other_checksum = false;
-  // Leave stamps as the files have them: for those who copy files that lie beside the log.
-  bool keep_lidar_clock = false;
-};
-
-struct LoadedDataset {
-  SensorLog log;
-  std::optional<std::vector<formats::Relation>> relations;
-  std::optional<std::filesystem::path> world_file;  // LOG.truth.toml of a simulated log
-  std::string name;    // the catalogue's, or the log's file name without its log suffix
-  std::string sha256;  // of the log file
-  // Of all that decides what is run and scored: the log, what lies beside it (.robot.toml .tum
-  // .relations .truth.toml), the order and the catalogue's calibration. `sha256` for a log alone.
-  std::string digest;
-  // lidar.time_offset_s as it was stated: scans, and what carries their stamps, were moved by it.
-  double lidar_time_offset_s = 0;
-};
-
-// `name_or_path` is a catalogued name or the path of a log file; truth is LOG.tum or LOG.relations
-// beside it. A name wins over a file of the same name.
-Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
-                                   const LoadOptions& options = {});
-Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
-                                   const Catalog& catalog, const LoadOptions& options = {});
-
-// Where a log lies and how the catalogue says to read it.
-struct LogSource {
-  std::string name;
-  std::filesystem::path path;
-  formats::ReadLogOptions options;
-  std::vector<std::string> notes;  // what was let through
-};
-Result<LogSource> find_log(std::string_view name_or_path, const DataDirs& dirs,
-                           const Catalog& catalog, const LoadOptions& options = {});
-
-// The same for a pose graph: a catalogued name, whose file must have its checksum, or a path.
-Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataDirs& dirs,
-                                      const Catalog& catalog);
+// The main catalogue and, after it, the catalog.toml of each data folder that has one. A name that
+// two of them have is an Error that names both places.
+Result<Catalog> known_datasets(const DataDirs& dirs);
 
 struct DatasetRow {
   std::string name;
   std::string title;
   bool is_found = false;
-  bool is_readable = false;
+  bool is_readable = false;    // as a sensor log
   std::filesystem::path path;  // of the log, where it was found
   std::string format;
   TruthKind truth = TruthKind::kNone;
@@ -133,6 +100,8 @@ struct DatasetRow {
   std::string source;
   bool is_fetchable = false;
   std::string not_fetchable;  // why
+  std::filesystem::path catalog_file;
+  bool is_own = false;  // of the catalogue of a data folder
 };
 
 // One row per entry, in the catalogue's order.

@@ -1,11 +1,11 @@
-// A data set by name or by file, with its truth: what every command that takes one goes through.
+// What every command that takes a data set goes through.
+#include "datasets/catalog/load_dataset.hpp"
+
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
 #include <string_view>
 
-#include "datasets/catalog/catalog.hpp"
 #include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
 #include "datasets/catalog/sha256.hpp"
@@ -28,10 +28,6 @@ std::string names_text(const Catalog& catalog) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-// What may lie beside a log and is read with it.
-constexpr std::array<std::string_view, 4> kSidecars = {".robot.toml", ".tum", ".relations",
-                                                       ".truth.toml"};
-
 // "" for the defaults of a log that is read by its path.
 std::string options_text(const formats::ReadLogOptions& options) {
   std::string text;
@@ -45,10 +41,10 @@ std::string options_text(const formats::ReadLogOptions& options) {
 Result<std::string> digest_of(const std::filesystem::path& log, const std::string& log_sha256,
                               const formats::ReadLogOptions& options) {
   std::string text = options_text(options);
-  for (const std::string_view suffix : kSidecars) {
-    const std::filesystem::path path = formats::sidecar_of(log, suffix);
-    if (!is_file(path)) continue;
-    const auto sha256 = sha256_of_file(path);
+  for (const std::string_view suffix : formats::kSidecarSuffixes) {
+    const auto path = formats::find_sidecar(log, suffix, options);
+    if (!path) continue;
+    const auto sha256 = sha256_of_file(*path);
     if (!sha256) return sha256;
     text += fmt::format("{} {}\n", suffix, *sha256);
   }
@@ -72,14 +68,12 @@ Result<LoadedDataset> load_file(const LogSource& source, const std::optional<std
   loaded.name = loaded.log.provenance.name = source.name;
   auto& notes = loaded.log.provenance.notes;
   notes.insert(notes.end(), source.notes.begin(), source.notes.end());
-  const auto relations_file = formats::sidecar_of(log, ".relations");
-  if (is_file(relations_file)) {
-    auto relations = formats::read_relations(relations_file);
+  if (const auto file = formats::find_sidecar(log, ".relations", source.options)) {
+    auto relations = formats::read_relations(*file);
     if (!relations) return tl::make_unexpected(relations.error());
     loaded.relations = std::move(*relations);
   }
-  const auto world_file = formats::sidecar_of(log, ".truth.toml");
-  if (is_file(world_file)) loaded.world_file = world_file;
+  loaded.world_file = formats::find_sidecar(log, ".truth.toml", source.options);
   return loaded;
 }
 
@@ -91,7 +85,8 @@ Result<std::filesystem::path> folder_of(const CatalogEntry& entry, const DataDir
   return fail(
       ErrorCode::kNotFound,
       fmt::format("data set {}: {} not found", entry.name, entry.files.front().path.string()),
-      folders_text(dirs), "the file in one of these folders; " + way);
+      entry.folder ? entry.folder->string() : folders_text(dirs),
+      (entry.folder ? "the file in this folder; " : "the file in one of these folders; ") + way);
 }
 
 // Every file of the entry must be there and be the catalogue's; otherwise a result would carry the
@@ -121,17 +116,39 @@ Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
   return notes;
 }
 
+// Only what the catalogue lists is taken along: of the rest it has no checksum.
+void take_listed_sidecars(const CatalogEntry& entry, LogSource& source) {
+  source.options.only_sidecars = entry.sidecars();
+  for (const std::string_view suffix : formats::kSidecarSuffixes) {
+    const std::filesystem::path path = formats::sidecar_of(source.path, suffix);
+    if (!is_file(path) || formats::find_sidecar(source.path, suffix, source.options)) continue;
+    source.notes.push_back(
+        fmt::format("{} lies beside the log and is not used: data set {} does "
+                    "not list it",
+                    path.filename().string(), entry.name));
+  }
+}
+
+// What only the log itself can tell: the catalogue's word for it must be true.
+Result<void> check_entry(const CatalogEntry& entry, const SensorLog& log) {
+  if (log.provenance.format != entry.format) {
+    return fail(ErrorCode::kInvalid,
+                fmt::format("data set {}: the log is a {} log", entry.name, log.provenance.format),
+                log.provenance.source, "format = \"" + entry.format + "\", as catalogued");
+  }
+  if (entry.truth == TruthKind::kReference && !log.truth) {
+    return fail(ErrorCode::kInvalid,
+                fmt::format("data set {}: the log holds no poses of its own", entry.name),
+                log.provenance.source, "truth = \"reference\", as catalogued");
+  }
+  return {};
+}
+
 Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
                              const LoadOptions& options) {
   if (entry.is_graph()) {
     return fail(ErrorCode::kUnsupported, fmt::format("data set {} is a pose graph", entry.name),
                 "catalogue", "a log: carmen, rawlog, lcm, ticks or rosbag");
-  }
-  if (!entry.is_readable()) {
-    return fail(ErrorCode::kUnsupported,
-                fmt::format("data set {}: format {} is not readable by this version", entry.name,
-                            entry.format),
-                "catalogue", "carmen, rawlog, lcm, ticks or rosbag");
   }
   const auto folder = folder_of(entry, dirs);
   if (!folder) return tl::make_unexpected(folder.error());
@@ -146,6 +163,8 @@ Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
   read.raw = entry.raw;
   read.cut_after_s = entry.cut_after_s;
   read.topics = entry.topics;
+  read.takes_reference = entry.truth == TruthKind::kReference;
+  take_listed_sidecars(entry, source);
   return source;
 }
 
@@ -183,6 +202,11 @@ Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs
     known = std::move(*sum);
   }
   auto loaded = load_file(*source, known);
+  if (loaded && entry != nullptr) {
+    if (const auto good = check_entry(*entry, loaded->log); !good) {
+      return tl::make_unexpected(good.error());
+    }
+  }
   if (!loaded || options.keep_lidar_clock) return loaded;
   loaded->lidar_time_offset_s = formats::move_onto_wheel_clock(
       loaded->log, loaded->relations ? &*loaded->relations : nullptr);
@@ -206,7 +230,7 @@ Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataD
 
 Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,
                                    const LoadOptions& options) {
-  const auto catalog = read_catalog();
+  const auto catalog = known_datasets(dirs);
   if (!catalog) return tl::make_unexpected(catalog.error());
   return load_dataset(name_or_path, dirs, *catalog, options);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -47,11 +48,6 @@ std::size_t known_suffix_length(std::string_view name) {
   return 0;
 }
 
-bool is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
-}
-
 Result<void> settle_order(ParsedLog& parsed, const std::string& file, StampOrder order,
                           std::vector<std::string>& notes) {
   if (order == StampOrder::kStamp) return check_stamp_order(parsed, file);
@@ -87,11 +83,16 @@ void cut_after(std::vector<SensorEvent>& events, double cut_after_s,
                               num_before - events.size(), cut_after_s));
 }
 
-Result<void> attach_truth(const std::filesystem::path& path, std::optional<Trajectory> reference,
-                          SensorLog& log) {
-  const std::filesystem::path tum = sidecar_of(path, ".tum");
-  if (!is_file(tum)) {
+Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOptions& options,
+                          std::optional<Trajectory> reference, SensorLog& log) {
+  const auto tum = find_sidecar(path, ".tum", options);
+  if (!tum) {
     if (!reference) return {};
+    if (!options.takes_reference) {
+      log.provenance.notes.push_back(
+          fmt::format("{} poses of the log itself are not used", reference->size()));
+      return {};
+    }
     log.provenance.notes.push_back(fmt::format(
         "{} poses of the log itself stand in for truth: a reference that another program found",
         reference->size()));
@@ -99,9 +100,9 @@ Result<void> attach_truth(const std::filesystem::path& path, std::optional<Traje
     log.provenance.is_truth_reference = true;
     return {};
   }
-  const auto text = read_file_bytes(tum);
+  const auto text = read_file_bytes(*tum);
   if (!text) return tl::make_unexpected(text.error());
-  auto truth = parse_tum_trajectory(*text, tum.string());
+  auto truth = parse_tum_trajectory(*text, tum->string());
   if (!truth) return tl::make_unexpected(truth.error());
   for (const std::string& note : truth->notes) log.provenance.notes.push_back("truth: " + note);
   log.truth = std::move(truth->trajectory);
@@ -132,7 +133,7 @@ Result<void> judge(Result<void> outcome, Refusals refusals, std::vector<std::str
 
 Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions& options,
                         Refusals refusals) {
-  const auto sidecar = read_sidecar(path);
+  const auto sidecar = read_sidecar(path, options);
   if (!sidecar) return tl::make_unexpected(sidecar.error());
   auto parsed = parse_log(path, *sidecar, options);
   if (!parsed) return tl::make_unexpected(parsed.error());
@@ -157,7 +158,8 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
         judge(integrate_wheel_ticks(log.events, log.robot.wheels, path.string()), refusals, notes);
     if (!integrated) return tl::make_unexpected(integrated.error());
   }
-  auto attached = judge(attach_truth(path, std::move(parsed->reference), log), refusals, notes);
+  auto attached =
+      judge(attach_truth(path, options, std::move(parsed->reference), log), refusals, notes);
   if (!attached) return tl::make_unexpected(attached.error());
   found.origins = std::move(parsed->origins);
   found.origins.resize(log.events.size());  // less what lies behind the cut
@@ -199,6 +201,17 @@ std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_v
   std::string name = log.filename().string();
   name.resize(name.size() - known_suffix_length(name));
   return log.parent_path() / (name + std::string(suffix));
+}
+
+std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& log,
+                                                  std::string_view suffix,
+                                                  const ReadLogOptions& options) {
+  const auto& only = options.only_sidecars;
+  if (only && std::find(only->begin(), only->end(), suffix) == only->end()) return std::nullopt;
+  std::filesystem::path path = sidecar_of(log, suffix);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  return path;
 }
 
 Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,

@@ -4,6 +4,7 @@
 // (datasets/catalog does).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -35,6 +36,10 @@ bool is_writable(LogFormat format);
 // The path with its known log suffix replaced: sidecar_of("a/b.clf.gz", ".tum") = "a/b.tum".
 std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_view suffix);
 
+// What may lie beside a log, named like it, and is taken along.
+inline constexpr std::array<std::string_view, 5> kSidecarSuffixes = {
+    ".robot.toml", ".tum", ".relations", ".truth.toml", ".topics.toml"};
+
 enum class StampOrder {
   kStamp,  // a stamp that steps back is an error that names the row
   kFile,  // rows are kept as they stand; stamps are made strictly increasing by isotonic regression
@@ -57,7 +62,18 @@ struct ReadLogOptions {
   LogLimits limits;
   // ROS bags: which topic is which sensor; LOG.topics.toml goes before it.
   std::optional<BagTopics> topics;
+  // The suffixes of the only files that are taken along, whatever lies beside the log; without a
+  // list all of kSidecarSuffixes are.
+  std::optional<std::vector<std::string>> only_sidecars;
+  // Whether poses that another program wrote into the log (LCM) stand in for truth where there is
+  // no LOG.tum.
+  bool takes_reference = true;
 };
+
+// LOG with this suffix, where it is there and is to be taken along.
+std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& log,
+                                                  std::string_view suffix,
+                                                  const ReadLogOptions& options);
 
 // Reads a log, its calibration LOG.robot.toml, a bag's LOG.topics.toml and its truth LOG.tum, where
 // they lie beside it. An LCM log's own poses take the place of truth where there is no LOG.tum;

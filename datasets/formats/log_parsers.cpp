@@ -20,11 +20,6 @@ namespace {
 // SICK LMS 200 family, the sensor of the FLASER era: codes from here on say "no return".
 constexpr double kFlaserRangeMax_m = 81.0;
 
-bool is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
-}
-
 Result<ParsedLog> parse_flaser_or_robotlaser(std::string_view bytes, const std::string& file,
                                              const ReadLogOptions& options) {
   CarmenOptions carmen;
@@ -61,11 +56,11 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
 }
 
 Result<BagTopics> topics_of(const std::filesystem::path& path, const ReadLogOptions& options) {
-  const std::filesystem::path sidecar = sidecar_of(path, ".topics.toml");
-  if (!is_file(sidecar)) return options.topics.value_or(BagTopics{});
-  const auto text = read_file_bytes(sidecar);
+  const auto sidecar = find_sidecar(path, ".topics.toml", options);
+  if (!sidecar) return options.topics.value_or(BagTopics{});
+  const auto text = read_file_bytes(*sidecar);
   if (!text) return tl::make_unexpected(text.error());
-  return bag_topics_from_toml(*text, sidecar.string());
+  return bag_topics_from_toml(*text, sidecar->string());
 }
 
 Result<ParsedLog> parse_rosbag(std::string_view bytes, const std::filesystem::path& path,
@@ -88,12 +83,13 @@ const char* const kKnownNames =
     "in "
     ".bag";
 
-Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log) {
-  const std::filesystem::path path = sidecar_of(log, ".robot.toml");
-  if (!is_file(path)) return std::nullopt;
-  auto text = read_file_bytes(path);
+Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
+                                            const ReadLogOptions& options) {
+  const auto path = find_sidecar(log, ".robot.toml", options);
+  if (!path) return std::nullopt;
+  auto text = read_file_bytes(*path);
   if (!text) return tl::make_unexpected(text.error());
-  return Sidecar{path.string(), std::move(*text)};
+  return Sidecar{path->string(), std::move(*text)};
 }
 
 Result<ParsedLog> parse_log(const std::filesystem::path& path,

@@ -11,12 +11,13 @@
 
 namespace corridor::formats {
 
-// LOG.robot.toml, where it lies beside the log.
+// LOG.robot.toml, where it is taken along.
 struct Sidecar {
   std::string file;
   std::string text;
 };
-Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log);
+Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
+                                            const ReadLogOptions& options);
 
 // By the suffix; a .log that begins as an LCM event log does is one.
 Result<ParsedLog> parse_log(const std::filesystem::path& path,

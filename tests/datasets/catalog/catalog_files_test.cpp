@@ -1,7 +1,7 @@
 // The files of a data set: how the catalogue states them, what counts as the right one, graphs.
 #include <gtest/gtest.h>
 
-#include "datasets/catalog/catalog.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "datasets/catalog/sha256.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/log_health.hpp"
@@ -22,6 +22,7 @@ TEST(Catalog, ListsEveryViolationOfAFileAndItsAddress) {
     std::string text = entry_text(more);
     const std::size_t begin = text.find("  { path");
     text.replace(begin, text.find("]", begin) - begin, file + ",\n");
+    text.replace(text.find("truth = \"relations\""), 19, "truth = \"none\"");
     const auto catalog = read_catalog(folder.write("catalog.toml", text));
     return catalog ? std::string("accepted") : catalog.error().to_line();
   };

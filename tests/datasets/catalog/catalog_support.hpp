@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "datasets/catalog/catalog.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace corridor::catalog::test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "datasets/catalog/catalog.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "tests/support/recorded_data.hpp"
 
 namespace corridor::catalog {

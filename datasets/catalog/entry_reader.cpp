@@ -1,0 +1,255 @@
+#include "datasets/catalog/entry_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "datasets/catalog/entry_files.hpp"
+#include "datasets/catalog/public_url.hpp"
+#include "datasets/formats/bag/bag_topics.hpp"
+#include "datasets/formats/robot_toml.hpp"
+
+namespace corridor::catalog {
+namespace {
+
+constexpr std::size_t kSha256Digits = 64;
+constexpr std::array<std::string_view, 15> kKeys = {"name",
+                                                    "title",
+                                                    "format",
+                                                    "files",
+                                                    "truth",
+                                                    "order",
+                                                    "licence",
+                                                    "source",
+                                                    "topics",
+                                                    "joints",
+                                                    "cut_after_s",
+                                                    "calibration",
+                                                    "no_return_range_m",
+                                                    "not_fetchable",
+                                                    "order_of_other_files"};
+constexpr std::array<std::string_view, 4> kFileKeys = {"path", "sha256", "content_sha256", "url"};
+
+bool is_sha256(std::string_view text) {
+  return text.size() == kSha256Digits &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+constexpr const char* kFileForm =
+    R"(expected { path = "...", sha256 = "..." or content_sha256 = "...", url = "..." or none })";
+
+class EntryReader {
+ public:
+  EntryReader(const toml::table& table, std::vector<std::string>& wrong)
+      : table_(table), wrong_(wrong) {}
+
+  CatalogEntry read() {
+    const std::size_t num_wrong_before = wrong_.size();
+    for (const auto& [key, node] : table_) {
+      if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) {
+        complain(key.str(), "unknown key");
+      }
+    }
+    entry_.name = text("name");
+    entry_.title = text("title");
+    entry_.format = text("format");
+    entry_.licence = text("licence");
+    entry_.source = text("source");
+    take_files();
+    take_fetching();
+    take_choices();
+    entry_.no_return_range_m = positive_number("no_return_range_m");
+    entry_.cut_after_s = positive_number("cut_after_s");
+    take_calibration();
+    take_topics();
+    if (wrong_.size() == num_wrong_before) {
+      for (const EntryProblem& problem : unfit_files(entry_)) complain(problem.key, problem.what);
+    }
+    return std::move(entry_);
+  }
+
+ private:
+  void complain(std::string_view key, std::string_view what) {
+    const toml::node* node = table_.get(key);
+    complain(node == nullptr ? table_ : *node, key, what);
+  }
+
+  void complain(const toml::node& node, std::string_view key, std::string_view what) {
+    wrong_.push_back(line_text(node, key, what));
+  }
+
+  // Of what the reader of a table says, "robot model: wheels.trak_m: unknown key; ...", each in the
+  // line of its key.
+  void complain_of_each(std::string_view parent, std::string_view said) {
+    constexpr std::string_view kIntroduction = "robot model: ";
+    if (said.starts_with(kIntroduction)) said.remove_prefix(kIntroduction.size());
+    while (!said.empty()) {
+      const std::size_t end = said.find("; ");
+      const std::string_view part = said.substr(0, end);
+      said.remove_prefix(end == std::string_view::npos ? said.size() : end + 2);
+      const std::string key =
+          fmt::format("{}{}", parent, part.substr(0, part.find_first_of(": =")));
+      const toml::node* node = table_.at_path(key).node();
+      if (node == nullptr) node = table_.get(key.substr(0, key.find('.')));
+      const auto line = (node == nullptr ? table_ : *node).source().begin.line;
+      wrong_.push_back(fmt::format("line {}: {}{}", line, parent, part));
+    }
+  }
+
+  std::string text(std::string_view key) {
+    const auto value = table_[key].value<std::string>();
+    if (!value || value->empty()) complain(key, "missing or not a text");
+    return value.value_or("");
+  }
+
+  void take_files() {
+    const toml::array* files = table_["files"].as_array();
+    if (files == nullptr || files->empty()) {
+      complain("files", "missing, empty or not a list");
+      return;
+    }
+    for (const toml::node& node : *files) {
+      if (const toml::table* file = node.as_table()) {
+        take_file(*file);
+      } else {
+        complain(node, "files", kFileForm);
+      }
+    }
+  }
+
+  void take_file(const toml::table& table) {
+    const auto path = table["path"].value<std::string>();
+    const auto sha256 = table["sha256"].value<std::string>();
+    const auto content_sha256 = table["content_sha256"].value<std::string>();
+    const auto url = table["url"].value<std::string>();
+    bool is_known = true;
+    for (const auto& [key, node] : table) {
+      is_known = is_known && node.is_string() &&
+                 std::find(kFileKeys.begin(), kFileKeys.end(), key.str()) != kFileKeys.end();
+    }
+    if (!is_known || !path || sha256.has_value() == content_sha256.has_value()) {
+      complain(table, "files", kFileForm);
+      return;
+    }
+    DataFile file{*path, sha256.value_or(content_sha256.value_or("")), content_sha256.has_value(),
+                  url.value_or("")};
+    if (!is_sha256(file.sha256)) {
+      complain(table, "files", "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
+    }
+    if (url) {
+      if (const auto good = check_public_url(*url); !good) {
+        complain(table, "files", "url of " + *path + ": " + good.error().to_line());
+      }
+    }
+    const std::filesystem::path relative = file.path.lexically_normal();
+    if (path->empty() || relative.is_absolute() || *relative.begin() == ".." ||
+        !relative.has_filename()) {
+      complain(table, "files", *path + " does not lie in a data folder");
+    }
+    entry_.files.push_back(std::move(file));
+  }
+
+  // What cannot be fetched says why, and nothing else does.
+  void take_fetching() {
+    if (table_.contains("not_fetchable")) entry_.not_fetchable = text("not_fetchable");
+    if (entry_.files.empty()) return;
+    const bool has_urls = std::all_of(entry_.files.begin(), entry_.files.end(),
+                                      [](const DataFile& file) { return !file.url.empty(); });
+    if (has_urls == entry_.not_fetchable.empty()) return;
+    complain("not_fetchable", has_urls ? "every file has a url; expected no such key"
+                                       : "missing; expected the reason, or a url of every file");
+  }
+
+  void take_choices() {
+    const std::string truth = text("truth");
+    if (truth == "tum") {
+      entry_.truth = TruthKind::kTum;
+    } else if (truth == "relations") {
+      entry_.truth = TruthKind::kRelations;
+    } else if (truth == "reference") {
+      entry_.truth = TruthKind::kReference;
+    } else if (truth != "none") {
+      complain("truth", "expected tum, relations, reference or none");
+    }
+    entry_.order = order("order");
+    if (table_.contains("order_of_other_files")) {
+      entry_.order_of_other_files = order("order_of_other_files");
+    }
+  }
+
+  formats::StampOrder order(std::string_view key) {
+    const std::string stated = text(key);
+    if (stated != "stamp" && stated != "file") complain(key, "expected stamp or file");
+    return stated == "file" ? formats::StampOrder::kFile : formats::StampOrder::kStamp;
+  }
+
+  std::optional<double> positive_number(std::string_view key) {
+    const auto node = table_[key];
+    if (!node) return std::nullopt;
+    const auto value = node.value<double>();
+    if (!value || !(*value > 0) || !std::isfinite(*value)) {
+      complain(key, "expected a number > 0");
+    }
+    return value;
+  }
+
+  void take_calibration() {
+    const auto node = table_["calibration"];
+    if (!node) return;
+    if (!node.is_table()) {
+      complain("calibration", "not a table");
+      return;
+    }
+    std::ostringstream toml_text;
+    toml_text << toml::default_formatter(*node.as_table());
+    auto stated = formats::override_robot(RobotModel{}, toml_text.str(), "calibration");
+    if (!stated) {
+      complain_of_each("calibration.", stated.error().what);
+    } else {
+      entry_.robot = std::move(stated->robot);
+      entry_.raw = stated->raw;
+    }
+  }
+
+  // The tables [topics] and [joints] of LOG.topics.toml, as keys of the entry.
+  void take_topics() {
+    toml::table stated;
+    for (const char* key : {"topics", "joints"}) {
+      if (const toml::node* node = table_.get(key)) stated.insert(key, *node);
+    }
+    if (stated.empty()) return;
+    if (entry_.format != "rosbag") {
+      complain(table_.contains("topics") ? "topics" : "joints", "only a rosbag has topics");
+      return;
+    }
+    std::ostringstream toml_text;
+    toml_text << toml::default_formatter(stated);
+    auto topics = formats::bag_topics_from_toml(toml_text.str(), "topics");
+    if (!topics) {
+      complain_of_each("", topics.error().what);
+    } else {
+      entry_.topics = std::move(*topics);
+    }
+  }
+
+  const toml::table& table_;
+  std::vector<std::string>& wrong_;
+  CatalogEntry entry_;
+};
+
+}  // namespace
+
+std::string line_text(const toml::node& node, std::string_view key, std::string_view what) {
+  return fmt::format("line {}: {}: {}", node.source().begin.line, key, what);
+}
+
+CatalogEntry read_entry(const toml::table& table, std::vector<std::string>& wrong) {
+  CatalogEntry entry = EntryReader(table, wrong).read();
+  entry.line = table.source().begin.line;
+  return entry;
+}
+
+}  // namespace corridor::catalog
