@@ -3,6 +3,7 @@
 
 #include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/log_io.hpp"
+#include "datasets/formats/log_parsers.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -37,7 +38,8 @@ ReadingCounts readings_held(const SensorLog& log, LogFormat target) {
 
 Result<void> check_written_log(const SensorLog& log, const std::filesystem::path& path) {
   const auto format = format_from_suffix(path);
-  if (!format) return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string());
+  if (!format)
+    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(), kKnownNames);
   const auto read = read_log(path);
   if (!read) {
     return fail(read.error().code, "the format cannot hold this log: " + read.error().what,

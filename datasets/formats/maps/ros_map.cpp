@@ -198,7 +198,8 @@ CellClass classify(const GridCell& cell) {
 }
 
 Result<void> write_ros_map(const GridMap& map, const std::filesystem::path& stem) {
-  if (map.empty()) return fail(ErrorCode::kInvalid, "the map has no cells", stem.string());
+  if (map.empty())
+    return fail(ErrorCode::kInvalid, "the map has no cells", stem.string(), "at least one");
   const std::filesystem::path image = stem.string() + ".pgm";
   if (auto written = write_file_atomically(image, pgm_of(map)); !written) return written;
   return write_file_atomically(stem.string() + ".yaml", yaml_of(map, image.filename().string()));

@@ -212,7 +212,7 @@ TEST(GoldenLogs, Lcm) {
   }
 }
 
-// Beam i of a sweep: 1 + 0.1 i m, 0.1 i rad clockwise from above, 1 ms later than the one before.
+// Beam i of the 24 of a turn: 1 + 0.1 i m, clockwise from above, 1 ms later than the one before.
 TEST(GoldenLogs, LcmBeamsPointToTheRightOneAfterAnother) {
   const SensorLog log = read_with_calibration("lcm/data.lcm", "a.lcm");
   std::int64_t begin_ns = 100'000'000'000;
@@ -225,11 +225,11 @@ TEST(GoldenLogs, LcmBeamsPointToTheRightOneAfterAnother) {
       const double i = std::round((scan->ranges_m[beam] - 1) * 10);
       const double moment_s =
           static_cast<double>(scan->stamp.nanoseconds - begin_ns) * 1e-9 + scan->beam_time_s(beam);
-      EXPECT_NEAR(wrap_angle(scan->angle_rad(beam) + 0.1 * i), 0, 0.05) << beam;
-      EXPECT_NEAR(moment_s, 1e-3 * i, 1e-3) << beam;
+      EXPECT_NEAR(wrap_angle(scan->angle_rad(beam) + 2 * std::numbers::pi * i / 24), 0, 1e-6);
+      EXPECT_NEAR(moment_s, 1e-3 * i, 1e-6);
       ++num_valid;
     }
-    EXPECT_EQ(num_valid, 6);
+    EXPECT_EQ(num_valid, 24);
     begin_ns += 100'000'000;
   }
 }

@@ -261,7 +261,7 @@ TEST(LogHealth, SuspectsWheelsFasterThanRobotsIndoors) {
   SensorLog log = sound_log();
   change_each<WheelSample>(log, [](WheelSample& sample) {
     const Pose2& pose = sample.T_odom_base;
-    sample.T_odom_base = Pose2(20 * pose.x_m(), 20 * pose.y_m(), pose.theta_rad());
+    sample.T_odom_base = Pose2(6 * pose.x_m(), 6 * pose.y_m(), pose.theta_rad());
   });
   EXPECT_TRUE(examine(log).defects.empty()) << all_lines(examine(log).defects);
   expect_suspicion(log, "centimetres or millimetres for metres, a jump");

@@ -94,7 +94,7 @@ TEST(RosMap, NamesTheLineOfAValueThatIsNone) {
   const std::vector<std::pair<std::string, std::string>> defects = {
       {"negate: true", "map.yaml:4: negate: not a number from 0 to 1"},
       {"negate: 0.5", "map.yaml:4: negate: neither 0 nor 1"},
-      {"negate:", "map.yaml:4: negate: not a number"},
+      {"negate:", "negate: not a number"},
       {"occupied_thresh: zzz", "map.yaml:4: occupied_thresh: not a number from 0 to 1"},
       {"occupied_thresh: 65", "map.yaml:4: occupied_thresh: not a number from 0 to 1"},
       {"free_thresh: 0,196", "map.yaml:4: free_thresh: not a number from 0 to 1"},
