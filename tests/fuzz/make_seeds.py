@@ -298,9 +298,9 @@ def lcm_logs():
                 ">Qqii", 0x8DC5A028FCA42FF9, board_us, 100 * step, 101 * step) + bytes(24)))
             events.append((now_us + 600, b"MAEBOT_SENSOR_DATA", struct.pack(
                 ">Qq6h", 0xC320824C265E849A, board_us, 10, 20, 16384, 1, 2, 131) + bytes(42)))
-            n = 24  # of a whole turn
+            n = 40  # of a whole turn
             scan = struct.pack(">Qqi", 0x89DC5B879A5056CF, now_us, n)
-            scan += struct.pack(f">{n}f", *[1 + 0.1 * i for i in range(n)])
+            scan += struct.pack(f">{n}f", *[1 + 0.05 * i for i in range(n)])
             scan += struct.pack(f">{n}f", *[2 * math.pi * i / n for i in range(n)])
             scan += struct.pack(f">{n}q", *[now_us + 1000 * i for i in range(n)])
             scan += struct.pack(f">{n}f", *[0.5] * n)

@@ -212,7 +212,7 @@ TEST(GoldenLogs, Lcm) {
   }
 }
 
-// Beam i of the 24 of a turn: 1 + 0.1 i m, clockwise from above, 1 ms later than the one before.
+// Beam i of the 40 of a turn: 1 + 0.05 i m, clockwise from above, 1 ms later than the one before.
 TEST(GoldenLogs, LcmBeamsPointToTheRightOneAfterAnother) {
   const SensorLog log = read_with_calibration("lcm/data.lcm", "a.lcm");
   std::int64_t begin_ns = 100'000'000'000;
@@ -222,14 +222,14 @@ TEST(GoldenLogs, LcmBeamsPointToTheRightOneAfterAnother) {
     int num_valid = 0;
     for (std::size_t beam = 0; beam < scan->num_beams(); ++beam) {
       if (scan->is_valid[beam] == 0) continue;
-      const double i = std::round((scan->ranges_m[beam] - 1) * 10);
+      const double i = std::round((scan->ranges_m[beam] - 1) * 20);
       const double moment_s =
           static_cast<double>(scan->stamp.nanoseconds - begin_ns) * 1e-9 + scan->beam_time_s(beam);
-      EXPECT_NEAR(wrap_angle(scan->angle_rad(beam) + 2 * std::numbers::pi * i / 24), 0, 1e-6);
+      EXPECT_NEAR(wrap_angle(scan->angle_rad(beam) + 2 * std::numbers::pi * i / 40), 0, 1e-6);
       EXPECT_NEAR(moment_s, 1e-3 * i, 1e-6);
       ++num_valid;
     }
-    EXPECT_EQ(num_valid, 24);
+    EXPECT_EQ(num_valid, 40);
     begin_ns += 100'000'000;
   }
 }
