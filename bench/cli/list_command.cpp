@@ -1,5 +1,7 @@
 #include "bench/cli/list_command.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -48,9 +50,9 @@ Result<Listing> list_systems(const CommonOptions&) {
   return listing;
 }
 
-Json parameters_of(const runner::SystemInfo& info, const std::string& profile) {
+Json parameters_of(const std::vector<ParamRow>& rows) {
   Json parameters = Json::array();
-  for (const ParamRow& row : info.param_table(profile)) {
+  for (const ParamRow& row : rows) {
     parameters.push_back({{"name", row.name},
                           {"type", row.type},
                           {"value", row.value},
@@ -69,7 +71,7 @@ Result<Listing> list_profiles(const CommonOptions&) {
                                {"system", info.name},
                                {"profile", profile.name},
                                {"description", profile.description},
-                               {"parameters", parameters_of(info, profile.name)}});
+                               {"parameters", parameters_of(info.param_table(profile.name))}});
     }
   }
   return listing;
@@ -101,7 +103,7 @@ Result<Listing> list_datasets(const CommonOptions& common) {
          {"source", row.source},
          {"is_fetchable", row.is_fetchable},
          {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)},
-         {"catalogue", row.catalog_file.string()}});
+         {"catalogue", row.is_own ? Json(row.catalog_file.string()) : Json("built in")}});
     has_own = has_own || row.is_own;
   }
   if (has_own) listing.columns.insert(listing.columns.end() - 1, "catalogue");
@@ -109,16 +111,20 @@ Result<Listing> list_datasets(const CommonOptions& common) {
 }
 
 Result<Listing> list_scenarios(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "description"}};
+  Listing listing{Json::array(), {"name", "family", "description"}};
   for (const std::filesystem::path& path : simulation::list_scenarios()) {
     const Result<simulation::Scenario> scenario = simulation::read_scenario(path);
     if (!scenario) return tl::make_unexpected(scenario.error());
-    Json values = Json::object();
-    for (const auto& [key, value] : simulation::scenario_values(*scenario)) values[key] = value;
-    listing.items.push_back({{"name", scenario->name},
-                             {"description", scenario->description},
-                             {"path", path.string()},
-                             {"parameters", values}});
+    const auto members = simulation::scenario_members(scenario->name);
+    if (!members) return tl::make_unexpected(members.error());
+    const bool is_family = members->front() != scenario->name;
+    listing.items.push_back(
+        {{"name", scenario->name},
+         {"description", scenario->description},
+         {"family", is_family ? Json(fmt::format("of {}", members->size())) : Json(nullptr)},
+         {"members", *members},
+         {"path", path.string()},
+         {"parameters", parameters_of(simulation::scenario_table(*scenario))}});
   }
   return listing;
 }

@@ -16,11 +16,11 @@
 #include <utility>
 
 #include "bench/runner/back_ends.hpp"
+#include "bench/runner/data_kind.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/runner/folder_lock.hpp"
 #include "bench/runner/plan.hpp"
 #include "bench/runner/run_plan.hpp"
-#include "datasets/simulation/scenario.hpp"
 
 namespace corridor::cli {
 namespace {
@@ -37,21 +37,19 @@ Result<fs::path> this_program() {
   return fail(ErrorCode::kInternal, "this program's own path is unknown", "/proc/self/exe");
 }
 
-// Simulated data are named like recorded ones, by the file or name of their scenario.
-bool is_scenario(const std::string& dataset) {
-  const std::string file = dataset.substr(0, dataset.rfind('@'));  // without a family's member
-  if (fs::path(file).extension() == ".toml") return true;
-  const std::vector<fs::path> paths = simulation::list_scenarios();
-  return std::any_of(paths.begin(), paths.end(),
-                     [&](const fs::path& path) { return path.stem() == file; });
-}
-
-void replace_data(const std::vector<std::string>& datasets, runner::Suite& suite) {
+Result<void> replace_data(const std::vector<std::string>& datasets, const catalog::DataDirs& dirs,
+                          runner::Suite& suite) {
+  const Result<catalog::Catalog> known = catalog::known_datasets(dirs);
+  if (!known) return tl::make_unexpected(known.error());
   suite.scenarios.clear();
   suite.datasets.clear();
   for (const std::string& dataset : datasets) {
-    (is_scenario(dataset) ? suite.scenarios : suite.datasets).push_back(dataset);
+    const Result<runner::DataKind> kind = runner::kind_of_data(dataset, *known);
+    if (!kind) return tl::make_unexpected(kind.error());
+    const bool is_simulated = *kind == runner::DataKind::kSimulated;
+    (is_simulated ? suite.scenarios : suite.datasets).push_back(dataset);
   }
+  return {};
 }
 
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
@@ -169,7 +167,11 @@ Result<runner::Suite> RunCommand::requested_suite() const {
     if (!known) return at_option("--backend", known.error());
   }
   if (!backends.empty()) requested.backends = without_repeats(backends);
-  if (!datasets.empty()) replace_data(without_repeats(datasets), requested);
+  if (!datasets.empty()) {
+    const Result<void> replaced =
+        replace_data(without_repeats(datasets), common.data_dirs(), requested);
+    if (!replaced) return tl::make_unexpected(replaced.error());
+  }
   if (const Result<void> good = apply_seeds(requested); !good) {
     return tl::make_unexpected(good.error());
   }

@@ -8,6 +8,7 @@
 
 #include "bench/results/digest.hpp"
 #include "bench/runner/case_data.hpp"
+#include "bench/runner/data_kind.hpp"
 #include "bench/runner/name_data.hpp"
 #include "bench/runner/systems.hpp"
 #include "datasets/simulation/scenario.hpp"
@@ -48,6 +49,9 @@ class Planner {
   Planner(const Suite& suite, const PlanOptions& options) : suite_(suite), options_(options) {}
 
   Result<Plan> plan(const catalog::DataDirs& dirs) {
+    if (const Result<void> clear = check_names(dirs); !clear) {
+      return tl::make_unexpected(clear.error());
+    }
     for (const std::string& source : suite_.scenarios) {
       const Result<std::vector<std::string>> members = simulation::scenario_members(source);
       if (!members) return tl::make_unexpected(members.error());
@@ -77,6 +81,17 @@ class Planner {
   }
 
  private:
+  [[nodiscard]] Result<void> check_names(const catalog::DataDirs& dirs) const {
+    const Result<catalog::Catalog> known = catalog::known_datasets(dirs);
+    if (!known) return tl::make_unexpected(known.error());
+    for (const auto* sources : {&suite_.scenarios, &suite_.datasets}) {
+      for (const std::string& source : *sources) {
+        if (const Result<void> clear = check_one_meaning(source, *known); !clear) return clear;
+      }
+    }
+    return {};
+  }
+
   void add_simulated(const DataItem& item) {
     for (int i = 0; i < suite_.num_seeds; ++i) {
       const std::uint64_t seed = suite_.first_seed + static_cast<std::uint64_t>(i);

@@ -12,6 +12,7 @@
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "datasets/formats/lidar_clock.hpp"
 #include "datasets/formats/robot_toml.hpp"
+#include "slam/core/nearest_names.hpp"
 
 namespace corridor::catalog {
 namespace {
@@ -22,10 +23,10 @@ std::string folders_text(const DataDirs& dirs) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string names_text(const Catalog& catalog) {
+std::vector<std::string> names_of(const Catalog& catalog) {
   std::vector<std::string> names;
   for (const CatalogEntry& entry : catalog.entries) names.push_back(entry.name);
-  return fmt::format("{}", fmt::join(names, " "));
+  return names;
 }
 
 // "" for the defaults of a log that is read by its path.
@@ -173,7 +174,8 @@ Result<LogSource> find_path(const std::filesystem::path& path, const Catalog& ca
   if (!is_file(path)) {
     return fail(ErrorCode::kNotFound,
                 fmt::format("'{}' is neither a data set nor a log file", path.string()), "",
-                "a file, or one of: " + names_text(catalog));
+                fmt::format("a file, or one of `data list`; the nearest names: {}",
+                            fmt::join(nearest_names(path.string(), names_of(catalog)), ", ")));
   }
   LogSource source{formats::sidecar_of(path, "").filename().string(), path, {}, {}};
   source.options.order = options.order.value_or(formats::StampOrder::kStamp);

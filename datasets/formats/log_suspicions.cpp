@@ -28,6 +28,9 @@ constexpr double kDegreesFactor_low = 30;
 constexpr double kDegreesFactor_high = 110;
 constexpr double kSameTurn_ratio = 0.3;
 constexpr double kSameRate_factor = 2;
+// Robots that drive on floors: no smaller than a hand, no larger than a car.
+constexpr double kNarrowestTrack_m = 0.03;
+constexpr double kLargestRobot_m = 3;
 
 class Suspicions {
  public:
@@ -41,6 +44,7 @@ class Suspicions {
     if (health_.lidar) suspect_lidar(*health_.lidar);
     if (health_.wheels) suspect_wheels(*health_.wheels);
     if (health_.imu) suspect_imu(*health_.imu);
+    suspect_robot();
     if (health_.truth && health_.truth->scans_with_pose_ratio == 0) {
       add("truth: no scan has a true pose within 10 ms; another clock, unit or log?");
     }
@@ -49,6 +53,22 @@ class Suspicions {
 
  private:
   void add(std::string line) { found_.push_back(std::move(line)); }
+
+  void suspect_robot() {
+    const double track_m = robot_.wheels.track_m;
+    if (track_m < kNarrowestTrack_m || track_m > kLargestRobot_m) {
+      add(fmt::format("robot model: a track of {} m; another unit?", track_m));
+    }
+    suspect_mounting("LiDAR", robot_.lidar.T_base_lidar);
+    suspect_mounting("IMU", robot_.imu.T_base_imu);
+  }
+
+  void suspect_mounting(const char* sensor, const Pose2& T_base_sensor) {
+    const double distance_m = T_base_sensor.translation_m().norm();
+    if (distance_m < kLargestRobot_m) return;
+    add(fmt::format("robot model: a {} {} m away from the base; another unit?", sensor,
+                    distance_m));
+  }
 
   void suspect_stamps(const char* sensor, const StampHealth& stamps) {
     if (stamps.median_step_s > kSlowestStep_s) {

@@ -49,6 +49,18 @@ ParamValues scenario_values(const Scenario& scenario) {
   return values;
 }
 
+std::vector<ParamRow> scenario_table(const Scenario& scenario) {
+  std::vector<ParamRow> rows;
+  Scenario copy = scenario;
+  for_each_section(copy, [&](const char* section, auto& params) {
+    for (ParamRow& row : param_table(params)) {
+      row.name.insert(0, fmt::format("{}.", section));
+      rows.push_back(std::move(row));
+    }
+  });
+  return rows;
+}
+
 RobotModel nominal_robot(const Scenario& scenario) {
   RobotModel robot;
   robot.name = "corridor robot";

@@ -35,7 +35,9 @@ std::vector<std::string> violations(const Scenario& scenario);
 // `base` names; a sensor's table may name a `preset` of datasets/scenarios/presets/sensors.toml,
 // whose values come before its own keys. [world] holds the corridor's keys or a drawing
 // (world.hpp), or names `map`, the yaml file of a ROS map beside the scenario, and a `route_m`
-// through it. On failure the Error lists ALL unknown keys, wrong types and broken rules, each with
+// through it. The corridor's keys change those of the base one by one; a drawing or map takes the
+// place of the base's, and a `route_m` alone is another way through it. A `name` is that of the
+// file. On failure the Error lists ALL unknown keys, wrong types and broken rules, each with
 // its line.
 Result<Scenario> read_scenario(const std::filesystem::path& path);
 
@@ -45,12 +47,16 @@ Result<Scenario> with_overrides(Scenario scenario, const ParamValues& overrides,
 
 // Every value by key: what a result record stores.
 ParamValues scenario_values(const Scenario& scenario);
+// The same with unit, range and meaning, in the order of a file; [world] only of the corridor.
+std::vector<ParamRow> scenario_table(const Scenario& scenario);
 
 // The scenario files of datasets/scenarios/, sorted by name.
 std::vector<std::filesystem::path> list_scenarios();
 // The file of a scenario's name ("paper-corridor"), or the path itself if it names a file. The part
 // from the last '@' on, which names a member of a family, is not looked at.
 Result<std::filesystem::path> find_scenario(const std::string& name_or_path);
+// The name or path without that part.
+std::string without_member(const std::string& name_or_path);
 
 // A family is a scenario with the table [family]: key = "lidar.range_max_m", values = [3.5, 4.5].
 // Its members are called NAME@VALUE, each the scenario with that value.

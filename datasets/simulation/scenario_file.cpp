@@ -1,4 +1,4 @@
-// Scenario files: bases, presets, families.
+// Scenario files: bases, worlds, presets.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,7 +29,7 @@ class ScenarioReader {
       return tl::make_unexpected(based.error());
     }
     scenario.name = path_.stem().string();
-    read_text("name", scenario.name);
+    read_name(scenario.name);
     read_text("description", scenario.description);
     read_world_section(scenario);
     const bool is_world_read =
@@ -55,16 +55,22 @@ class ScenarioReader {
     std::string base;
     read_text("base", base);
     if (base.empty()) return {};
+    const std::string place =
+        fmt::format("{}:{}", path_.string(), document_->get("base")->source().begin.line);
     if (num_bases == kMaxBases) {
       return fail(ErrorCode::kInvalid,
-                  fmt::format("more than {} scenarios on one another", kMaxBases), path_.string(),
+                  fmt::format("more than {} scenarios on one another", kMaxBases), place,
                   "bases that do not go round in a circle");
     }
     std::error_code error;
     const fs::path beside = path_.parent_path() / base;
     const Result<fs::path> base_path =
         fs::is_regular_file(beside, error) ? Result<fs::path>(beside) : find_scenario(base);
-    if (!base_path) return tl::make_unexpected(base_path.error());
+    if (!base_path) {
+      return fail(base_path.error().code,
+                  fmt::format("base = \"{}\": {}", base, base_path.error().what), place,
+                  "a file beside this one, " + base_path.error().expected);
+    }
     Result<Scenario> read = ScenarioReader(*base_path).read(std::move(scenario), num_bases + 1);
     if (!read) return tl::make_unexpected(read.error());
     scenario = std::move(*read);
@@ -79,6 +85,16 @@ class ScenarioReader {
     }
   }
 
+  // A scenario is found and told by its file's name: another one inside would mislead.
+  void read_name(std::string& name) {
+    const std::string name_of_file = name;
+    read_text("name", name);
+    if (name == name_of_file || document_->get("name") == nullptr) return;
+    problem(*document_->get("name"), fmt::format("name = \"{}\"; expected \"{}\", as the file is "
+                                                 "called",
+                                                 name, name_of_file));
+  }
+
   void read_world_section(Scenario& scenario) {
     known_.emplace_back("world");
     known_.emplace_back("family");
@@ -91,6 +107,8 @@ class ScenarioReader {
       scenario.world = read_map(*table);
     } else if (table->contains("polygons") || table->contains("arcs")) {
       scenario.world = read_world_table(*table, problems_);
+    } else if (!scenario.world.corridor) {
+      read_other_route(*table, scenario.world);
     } else {
       CorridorShape shape = scenario.world.corridor.value_or(CorridorShape{});
       WorldParams params = to_params(shape);
@@ -99,6 +117,19 @@ class ScenarioReader {
       scenario.world = World{};
       scenario.world.corridor = shape;
       if (violations(shape).empty()) scenario.world = make_corridor(shape);
+    }
+  }
+
+  // Another way through the drawing or map of the base, which is otherwise taken as a whole.
+  void read_other_route(const toml::table& table, World& world) {
+    for (const auto& [key, node] : table) {
+      if (key.str() == "route_m") {
+        world.route_m = read_points(node, "world.route_m", problems_);
+        continue;
+      }
+      problem(node, fmt::format("world.{} on a base that is drawn; expected route_m alone, or a "
+                                "world of its own: polygons, arcs or map",
+                                key.str()));
     }
   }
 
@@ -148,8 +179,12 @@ class ScenarioReader {
       return;
     }
     const toml::table* of_section = presets->get_as<toml::table>(section);
-    const toml::table* preset =
-        of_section == nullptr ? nullptr : of_section->get_as<toml::table>(name);
+    if (of_section == nullptr) {
+      problem(node, fmt::format("there are no presets of [{}]; expected one of [{}]", section,
+                                fmt::join(names_in(&*presets), "] [")));
+      return;
+    }
+    const toml::table* preset = of_section->get_as<toml::table>(name);
     if (preset == nullptr) {
       problem(node, fmt::format("unknown preset {}.{}; expected one of {}", section, name,
                                 fmt::join(names_in(of_section), " ")));
@@ -190,118 +225,8 @@ class ScenarioReader {
   std::vector<TomlProblem> problems_;
 };
 
-struct Family {
-  std::string key;
-  std::vector<std::string> values;
-};
-
-// nullopt: a plain scenario.
-Result<std::optional<Family>> read_family(const fs::path& path) {
-  const Result<toml::table> document = parse_toml(path);
-  if (!document) return tl::make_unexpected(document.error());
-  const toml::node* node = document->get("family");
-  if (node == nullptr) return std::optional<Family>();
-  std::vector<TomlProblem> problems;
-  const auto problem = [&](const toml::node& at, std::string text) {
-    problems.push_back({at.source().begin.line, std::move(text)});
-  };
-  Family family;
-  if (const toml::table* table = node->as_table()) {
-    find_unknown_keys(*table, "family", {"key", "values"}, problems);
-    const toml::node* key = table->get("key");
-    const toml::node* values = table->get("values");
-    if (key == nullptr || !read_value(*key, family.key)) {
-      problem(*table, "family.key: expected a parameter, as \"lidar.range_max_m\"");
-    }
-    const toml::array* list = values == nullptr ? nullptr : values->as_array();
-    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-      double number = 0;
-      if (read_value(*list->get(i), number)) {
-        family.values.push_back(fmt::format("{}", number));
-      } else {
-        problem(*list->get(i), "family.values: expected numbers");
-      }
-    }
-    if (family.values.empty()) problem(*table, "family.values: expected a list of numbers");
-  } else {
-    problem(*node, "family is not a table; expected [family]");
-  }
-  if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
-  return std::optional<Family>(std::move(family));
-}
-
-struct NameParts {
-  std::string file, member;
-};
-
-// The last '@' parts a member's value from the name, unless a file has it in its name.
-NameParts parts_of(const std::string& name) {
-  std::error_code error;
-  const std::size_t at = name.rfind('@');
-  if (at == std::string::npos || fs::is_regular_file(name, error)) return {name, ""};
-  return {name.substr(0, at), name.substr(at + 1)};
-}
-
 }  // namespace
 
 Result<Scenario> read_scenario(const fs::path& path) { return ScenarioReader(path).read({}, 0); }
-
-std::vector<fs::path> list_scenarios() {
-  std::vector<fs::path> paths;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(CORRIDOR_SCENARIO_DIR, error)) {
-    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
-Result<fs::path> find_scenario(const std::string& name_or_path) {
-  std::error_code error;
-  const std::string file = parts_of(name_or_path).file;
-  std::vector<std::string> known;
-  for (const fs::path& path : list_scenarios()) {
-    if (path.stem() == file) return path;
-    known.push_back(path.stem().string());
-  }
-  if (fs::is_regular_file(file, error)) return fs::path(file);
-  return fail(ErrorCode::kNotFound, "no such scenario", name_or_path,
-              fmt::format("a file or one of {}", fmt::join(known, " ")));
-}
-
-Result<std::vector<std::string>> scenario_members(const std::string& name_or_path) {
-  const NameParts parts = parts_of(name_or_path);
-  if (!parts.member.empty()) return std::vector<std::string>{name_or_path};
-  const Result<fs::path> path = find_scenario(name_or_path);
-  if (!path) return tl::make_unexpected(path.error());
-  const Result<std::optional<Family>> family = read_family(*path);
-  if (!family) return tl::make_unexpected(family.error());
-  if (!*family) return std::vector<std::string>{name_or_path};
-  std::vector<std::string> members;
-  for (const std::string& value : (*family)->values)
-    members.push_back(fmt::format("{}@{}", name_or_path, value));
-  return members;
-}
-
-Result<Scenario> load_scenario(const std::string& name_or_path) {
-  const NameParts parts = parts_of(name_or_path);
-  const Result<fs::path> path = find_scenario(name_or_path);
-  if (!path) return tl::make_unexpected(path.error());
-  Result<Scenario> scenario = read_scenario(*path);
-  if (!scenario) return scenario;
-  const Result<std::optional<Family>> family = read_family(*path);
-  if (!family) return tl::make_unexpected(family.error());
-  if (!*family && parts.member.empty()) return scenario;
-  if (!*family) {
-    return fail(ErrorCode::kNotFound, "the scenario has no members", name_or_path, parts.file);
-  }
-  const std::vector<std::string>& values = (*family)->values;
-  if (std::find(values.begin(), values.end(), parts.member) == values.end()) {
-    return fail(ErrorCode::kNotFound, "a family of scenarios needs one of its members",
-                name_or_path, fmt::format("{}@ and one of {}", parts.file, fmt::join(values, " ")));
-  }
-  scenario->name += fmt::format("@{}", parts.member);
-  return with_overrides(std::move(*scenario), {{(*family)->key, parts.member}}, path->string());
-}
 
 }  // namespace corridor::simulation

@@ -73,7 +73,9 @@ TEST(BadRequest, UnknownNames) {
   expect_refused(folder, "run nosuite --out o", {"nosuite", "smoke"});
   expect_refused(folder, "run smoke --backend magic --out o",
                  {"--backend: unknown back-end \"magic\"; expected one of: ", "levenberg"});
-  expect_refused(folder, "run smoke --dataset nowhere --out o", {"nowhere"});
+  expect_refused(folder, "run smoke --dataset paper-coridor --out o",
+                 {"'paper-coridor' is neither a data set nor a scenario nor a file",
+                  "the nearest names: paper-corridor, "});
   expect_refused(
       folder, "run smoke --set karto.nope=1 --out o",
       {"--set: system karto: unknown parameter nope (nearest: ", "list profiles --json"});

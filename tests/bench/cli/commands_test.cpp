@@ -29,6 +29,21 @@ TEST(List, GivesEveryKindAsTextAndAsOneJsonDocument) {
   }
 }
 
+TEST(List, MarksFamiliesOfScenariosAndSaysWhatTheirParametersMean) {
+  const ScratchFolder folder;
+  const Answer text = run_program(folder, "list scenarios");
+  EXPECT_NE(text.out.find("corridor-range         of 9    The"), std::string::npos) << text.out;
+  const auto items = nlohmann::json::parse(run_program(folder, "list scenarios --json").out);
+  for (const auto& item : items) {
+    EXPECT_EQ(item.at("family").is_null(), item.at("members").size() == 1) << item.at("name");
+    for (const auto& row : item.at("parameters")) {
+      for (const char* key : {"name", "type", "value", "unit", "range", "meaning"}) {
+        EXPECT_TRUE(row.contains(key)) << item.at("name") << row;
+      }
+    }
+  }
+}
+
 TEST(Help, NamesOnlyCommandsThatExist) {
   const ScratchFolder folder;
   const Answer help = run_program(folder, "--help");

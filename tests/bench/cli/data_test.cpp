@@ -135,6 +135,47 @@ TEST_F(DataCommand, InspectOfWhatIsNoLogIsABadRequest) {
   }
 }
 
+TEST_F(DataCommand, ADataFolderBringsItsOwnCatalogueAndAnotherFolderDoesNotSeeIt) {
+  folder_.write("mine/sub/own.clf", kLog);
+  folder_.write("mine/catalog.toml", entry("own", kLog, "", "not_fetchable = \"made here\"\n"));
+  const Answer list = run("data list --data-dir mine");
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_NE(list.out.find("/mine/catalog.toml"), std::string::npos) << list.out;
+  EXPECT_NE(list.out.find("built in"), std::string::npos) << list.out;
+  EXPECT_EQ(run("data verify own --data-dir mine").exit_code, 0);
+  EXPECT_EQ(run("data verify own --data-dir data").exit_code, 2);
+  const Answer answer =
+      run("run --system dead-reckoning --dataset own --data-dir mine --out o --no-report");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err << answer.out;
+}
+
+TEST_F(DataCommand, ACatalogueOfADataFolderThatIsBrokenIsOneLine) {
+  folder_.write("mine/catalog.toml", "junk\n");
+  for (const std::string command :
+       {"data list", "data verify", "data inspect x.clf", "convert x.clf y.clf",
+        "run --system dead-reckoning --dataset here --out o", "run smoke --out o"}) {
+    const Answer answer = run(command + " --data-dir mine");
+    EXPECT_EQ(answer.exit_code, 2) << command;
+    EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+    EXPECT_NE(answer.err.find("/mine/catalog.toml:1: "), std::string::npos) << answer.err;
+  }
+}
+
+TEST_F(DataCommand, ANameThatIsAScenarioAndADataSetIsRefused) {
+  folder_.write("mine/catalog.toml",
+                entry("rectangle", kLog, "", "not_fetchable = \"made here\"\n"));
+  folder_.write("mine.toml",
+                "name = \"mine\"\nsystems = [\"dead-reckoning\"]\nscenarios = [\"rectangle\"]\n");
+  for (const std::string command :
+       {"run --system dead-reckoning --dataset rectangle --out o", "run mine.toml --out o"}) {
+    const Answer answer = run(command + " --data-dir mine");
+    EXPECT_EQ(answer.exit_code, 2) << command;
+    EXPECT_NE(answer.err.find("catalog.toml:1: 'rectangle' is a scenario and a data set"),
+              std::string::npos)
+        << answer.err;
+  }
+}
+
 TEST_F(DataCommand, ConvertTakesOtherBytesUnderAKnownNameOnlyIfAskedTo) {
   folder_.write("data/sub/here.clf", std::string(kLog) + "# another version\n");
   EXPECT_EQ(run("convert here own.clf --data-dir data").exit_code, 2);

@@ -151,15 +151,6 @@ TEST(Suites, AreFoundByNameAndByPathAndTheKnownOnesAreNamed) {
   EXPECT_EQ(find_suite("no/such.toml").error().code, ErrorCode::kNotFound);
 }
 
-TEST(Overrides, AMisspeltNameIsAnsweredWithTheNearestOnesNearestFirst) {
-  const std::vector<std::string> names = {"num_beams", "range_m", "ranges", "sigma_m"};
-  EXPECT_EQ(nearest_names("rnge_m", names),
-            (std::vector<std::string>{"range_m", "ranges", "sigma_m"}));
-  EXPECT_EQ(nearest_names("beams", names).front(), "num_beams") << "a part of the name";
-  EXPECT_EQ(nearest_names("x", {"y"}), std::vector<std::string>{"y"});
-  EXPECT_TRUE(nearest_names("x", {}).empty());
-}
-
 TEST(Overrides, UnknownNamesAndBrokenRulesAreListedTogetherInAShortLine) {
   const auto refused = resolve_overrides(*find_system("karto"), "shipped",
                                          {{"bufer_size_scans", "5"}, {"buffer_size_scans", "0"}});

@@ -220,7 +220,7 @@ TEST(LoadDataset, SaysWhatItLookedForAndWhere) {
   const auto unknown = load_dataset("tinny", data.dirs, data.catalog());
   EXPECT_NE(unknown.error().to_line().find("'tinny' is neither a data set nor a log file"),
             std::string::npos);
-  EXPECT_NE(unknown.error().to_line().find("one of: tiny"), std::string::npos);
+  EXPECT_NE(unknown.error().to_line().find("the nearest names: tiny"), std::string::npos);
   DataDirs nowhere;
   nowhere.folders = {data.folder / "elsewhere"};
   const auto missing = load_dataset("tiny", nowhere, data.catalog());

@@ -147,6 +147,16 @@ TEST(LogHealth, PlacesRepeatedStampsStepsBackAndGaps) {
             "event " + std::to_string(index_of_nth<LaserScan>(gap, 11)));
 }
 
+TEST(LogHealth, SuspectsARobotOutOfAllProportion) {
+  SensorLog log = sound_log();
+  log.robot.wheels.track_m = 350;
+  expect_suspicion(log, "robot model: a track of 350 m");
+  log.robot.wheels.track_m = 0.00035;
+  expect_suspicion(log, "robot model: a track of 0.00035 m");
+  log.robot.lidar.T_base_lidar = Pose2(145, 0, 0);
+  expect_suspicion(log, "robot model: a LiDAR 145 m away from the base");
+}
+
 TEST(LogHealth, SuspectsMillisecondsForSeconds) {
   SensorLog log = sound_log();
   change_each<LaserScan>(log, [](LaserScan& scan) { scan.stamp.nanoseconds *= 1000; });
@@ -261,7 +271,7 @@ TEST(LogHealth, SuspectsWheelsFasterThanRobotsIndoors) {
   SensorLog log = sound_log();
   change_each<WheelSample>(log, [](WheelSample& sample) {
     const Pose2& pose = sample.T_odom_base;
-    sample.T_odom_base = Pose2(6 * pose.x_m(), 6 * pose.y_m(), pose.theta_rad());
+    sample.T_odom_base = Pose2(4 * pose.x_m(), 4 * pose.y_m(), pose.theta_rad());
   });
   EXPECT_TRUE(examine(log).defects.empty()) << all_lines(examine(log).defects);
   expect_suspicion(log, "centimetres or millimetres for metres, a jump");

@@ -131,11 +131,71 @@ TEST(ScenarioBase, CirclesAreRefused) {
   EXPECT_TRUE(contains(error_of(read_scenario(own)), "scenarios on one another"));
 }
 
-TEST(ScenarioBase, ThatIsNotThereIsAnsweredWithTheKnownOnes) {
+TEST(ScenarioBase, ThatIsNotThereIsAnsweredWithItsLineAndTheNearestOnes) {
   const ScratchFolder folder;
-  const auto scenario = read_scenario(folder.write("x.toml", "base = \"paper-coridor\"\n"));
+  const auto scenario =
+      read_scenario(folder.write("x.toml", "name = \"x\"\nbase = \"paper-coridor\"\n"));
   ASSERT_FALSE(scenario);
-  EXPECT_TRUE(contains(error_of(scenario), "paper-corridor-12m"));
+  const std::string error = error_of(scenario);
+  EXPECT_TRUE(contains(error, "x.toml:2: base = \"paper-coridor\": no such scenario")) << error;
+  EXPECT_TRUE(contains(error, "nearest names: paper-corridor, paper-corridor-12m")) << error;
+}
+
+TEST(ScenarioBase, ItsCorridorIsChangedKeyByKey) {
+  const ScratchFolder folder;
+  folder.write("first.toml", "[world]\nb_m = 20\nc_m = 4\n");
+  const auto scenario =
+      read_scenario(folder.write("second.toml", "base = \"first.toml\"\n[world]\nc_m = 3.5\n"));
+  ASSERT_TRUE(scenario) << error_of(scenario);
+  EXPECT_EQ(scenario->world.corridor->b_m, 20);
+  EXPECT_EQ(scenario->world.corridor->c_m, 3.5);
+}
+
+TEST(ScenarioBase, ItsDrawingIsTakenAsAWholeOrWithAnotherRoute) {
+  const ScratchFolder folder;
+  folder.write("hall.toml",
+               "[world]\nmaterials = [{ name = \"wall\" }]\n"
+               "polygons = [{ points_m = [[0, 0], [20, 0], [20, 6], [0, 6]] }]\n"
+               "arcs = [{ centre_m = [10, 5], radius_m = 0.2 }]\nroute_m = [[2, 2], [18, 2]]\n");
+  const auto read = [&](const std::string& world) {
+    return read_scenario(folder.write("x.toml", "base = \"hall.toml\"\n[world]\n" + world));
+  };
+  const auto back = read("route_m = [[18, 2], [2, 2]]\n");
+  ASSERT_TRUE(back) << error_of(back);
+  EXPECT_EQ(back->world.walls.size(), 4U);
+  EXPECT_EQ(back->world.arcs.size(), 1U);
+  EXPECT_EQ(back->world.route_m.front().x(), 18);
+  const auto other = read(
+      "polygons = [{ points_m = [[0, 0], [9, 0], [9, 6], [0, 6]] }]\nroute_m = [[2, 3], [7, 3]]\n");
+  ASSERT_TRUE(other) << error_of(other);
+  EXPECT_TRUE(other->world.arcs.empty() && other->world.materials.empty()) << "drawn anew";
+  for (const char* key : {"a_m = 12\n", "materials = []\n"}) {
+    EXPECT_TRUE(contains(error_of(read(key)), "x.toml:3: world.")) << error_of(read(key));
+    EXPECT_TRUE(contains(error_of(read(key)), "on a base that is drawn")) << error_of(read(key));
+  }
+}
+
+TEST(ScenarioFiles, AreCalledAsTheNameInThem) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(read_scenario(folder.write("hall.toml", "name = \"hall\"\n")));
+  const auto other = read_scenario(folder.write("zzz.toml", "\nname = \"hall\"\n"));
+  EXPECT_TRUE(contains(error_of(other), "zzz.toml:2: name = \"hall\"; expected \"zzz\""))
+      << error_of(other);
+}
+
+TEST(ScenarioFiles, AMisspeltNameIsAnsweredWithTheNearestOnes) {
+  const std::string error = error_of(load_scenario("rectangel"));
+  EXPECT_TRUE(contains(error, "nearest names: rectangle, ")) << error;
+}
+
+TEST(ScenarioTable, SaysUnitRangeAndMeaningOfEveryValue) {
+  const Scenario scenario;
+  const auto rows = scenario_table(scenario);
+  EXPECT_EQ(rows.size() + 2, scenario_values(scenario).size()) << "all but name and description";
+  for (const ParamRow& row : rows) {
+    EXPECT_EQ(row.value, scenario_values(scenario).at(row.name));
+    EXPECT_FALSE(row.meaning.empty()) << row.name;
+  }
 }
 
 TEST(SensorPresets, ComeBeforeTheTablesOwnKeys) {
@@ -154,6 +214,15 @@ TEST(SensorPresets, UnknownOnesAreAnsweredWithTheKnownOnesAndTheLine) {
       read_scenario(folder.write("x.toml", "[lidar]\nrate_hz = 10\npreset = \"lms-100\"\n")));
   EXPECT_TRUE(contains(error, "x.toml:3: unknown preset lidar.lms-100")) << error;
   EXPECT_TRUE(contains(error, "rplidar-a1 urg-04lx utm-30lx")) << error;
+}
+
+TEST(SensorPresets, OfATableThatHasNoneAreAnsweredWithTheTablesThatHave) {
+  const ScratchFolder folder;
+  const auto error = error_of(read_scenario(folder.write("x.toml", "[people]\npreset = \"x\"\n")));
+  EXPECT_TRUE(contains(error,
+                       "x.toml:2: there are no presets of [people]; expected one of [imu] "
+                       "[lidar] [wheels]"))
+      << error;
 }
 
 TEST(SensorPresets, AllCarryAScenario) {
