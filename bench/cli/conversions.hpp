@@ -14,7 +14,8 @@ namespace corridor::cli {
 Result<ExitCode> convert_log(const std::string& in, const std::filesystem::path& out,
                              bool accept_other_checksum, const CommonOptions& common);
 
-Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::filesystem::path& out,
+// `in`: a graph file or the name of a data set.
+Result<ExitCode> convert_graph(const std::string& in, const std::filesystem::path& out,
                                const CommonOptions& common);
 
 Result<ExitCode> convert_trajectory(const std::filesystem::path& in,

@@ -59,7 +59,9 @@ Result<ExitCode> ConvertCommand::run() const {
   if (const Result<void> good = check_names(in, out); !good) {
     return tl::make_unexpected(good.error());
   }
-  if (is_graph(in)) return convert_graph(in, out, common);
+  // The name of a graph in the catalogue has no suffix; what becomes of it has.
+  const bool is_name = !fs::path(in).has_extension() && is_graph(out);
+  if (is_graph(in) || is_name) return convert_graph(in, out, common);
   const bool takes_poses = is_carmen(in) && is_trajectory_only(out);
   if (is_trajectory_only(in) || takes_poses) return convert_trajectory(in, out, common);
   return convert_log(in, out, accept_other_checksum, common);

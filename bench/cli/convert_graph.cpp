@@ -3,11 +3,12 @@
 #include "bench/cli/conversions.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/exit_code.hpp"
+#include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 
 namespace corridor::cli {
 
-Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::filesystem::path& out,
+Result<ExitCode> convert_graph(const std::string& in, const std::filesystem::path& out,
                                const CommonOptions& common) {
   const auto target = formats::graph_format_from_suffix(out);
   if (!target) {
@@ -16,7 +17,9 @@ Result<ExitCode> convert_graph(const std::filesystem::path& in, const std::files
   }
   if (const Result<void> good = check_targets({out}); !good)
     return tl::make_unexpected(good.error());
-  const auto graph = formats::read_pose_graph(in);
+  const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
+  if (!known) return tl::make_unexpected(known.error());
+  const auto graph = catalog::load_graph(in, common.data_dirs(), *known);
   if (!graph) return tl::make_unexpected(graph.error());
   if (const Result<void> written = formats::write_pose_graph(*graph, out); !written) {
     return tl::make_unexpected(written.error());

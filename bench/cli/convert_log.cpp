@@ -8,6 +8,7 @@
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/exit_code.hpp"
+#include "datasets/formats/log_health.hpp"
 #include "datasets/formats/log_io.hpp"
 
 namespace corridor::cli {
@@ -28,7 +29,9 @@ std::vector<Companion> companions_of(const catalog::LoadedDataset& in, const fs:
     return Companion{formats::sidecar_of(log, suffix), formats::sidecar_of(out, suffix),
                      is_brought};
   };
-  return {companion(".tum", in.log.truth.has_value()),
+  const bool has_reference = in.log.truth && in.log.provenance.is_truth_reference;
+  return {companion(".tum", in.log.truth && !has_reference),
+          companion(".reference.tum", has_reference),
           companion(".truth.toml", in.world_file.has_value()),
           companion(".relations", in.relations.has_value())};
 }
@@ -75,7 +78,24 @@ Result<void> write_all(const catalog::LoadedDataset& in, const fs::path& out) {
     return fail(ErrorCode::kUnreadable, "cannot be copied: " + error.message(),
                 file.source.string());
   }
+  const Result<void> good = formats::check_written_log(in.log, staged->path_for(out));
+  if (!good) return tl::make_unexpected(staged->with_final_name(good.error()));
   return staged->commit();
+}
+
+// What the reader did to the readings, and what looks wrong with them: no copy carries it on.
+void say_of(const SensorLog& log, const CommonOptions& common) {
+  for (const std::string& note : log.provenance.notes) common.say("note: " + note);
+  for (const std::string& suspicion : formats::examine(log).suspicions) {
+    common.say("suspicious: " + suspicion);
+  }
+}
+
+std::string text_of(const formats::ReadingCounts& held) {
+  std::string text =
+      fmt::format("{} scans, {} wheel samples", held.num_scans, held.num_wheel_samples);
+  if (held.num_imu_samples > 0) text += fmt::format(", {} inertial samples", held.num_imu_samples);
+  return text;
 }
 
 }  // namespace
@@ -85,7 +105,8 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool ac
   const auto target = formats::format_from_suffix(out);
   if (!target || !formats::is_writable(*target)) {
     return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written",
-                out.string(), ".rawlog, .clf, .clf.gz or .bag");
+                out.string(),
+                "a log as .rawlog, .clf, .clf.gz or .bag (a pose graph as .g2o, .graph or .toro)");
   }
   catalog::LoadOptions as_it_is;
   as_it_is.keep_lidar_clock = true;
@@ -99,14 +120,12 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool ac
   if (const Result<void> written = write_all(*loaded, out); !written) {
     return tl::make_unexpected(written.error());
   }
+  say_of(loaded->log, common);
   const std::vector<std::string> losses = formats::losses_of_conversion(loaded->log, *target);
-  if (accept_other_checksum) {
-    for (const std::string& note : loaded->log.provenance.notes) common.say("note: " + note);
-  }
   for (const std::string& loss : losses) common.say(fmt::format("lost: {}", loss));
-  common.say(fmt::format("{}: {} scans, {} wheel samples, {} inertial samples{}", out.string(),
-                         loaded->log.num_scans(), loaded->log.num_wheel_samples(),
-                         loaded->log.num_imu_samples(), losses.empty() ? ", nothing lost" : ""));
+  common.say(fmt::format("{}: {}{}", out.string(),
+                         text_of(formats::readings_held(loaded->log, *target)),
+                         losses.empty() ? ", nothing lost" : ""));
   return runner::kExitDone;
 }
 

@@ -1,5 +1,7 @@
 #include "bench/cli/inspect_command.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -26,7 +28,11 @@ std::optional<std::size_t> num_relations_of(const catalog::LogSource& source,
   const auto path = formats::find_sidecar(source.path, ".relations", source.options);
   if (!path) return std::nullopt;
   const auto relations = formats::read_relations(*path);
-  if (relations) return relations->size();
+  if (relations) {
+    const std::size_t num_repeated = formats::num_repeated(*relations);
+    if (num_repeated > 0) notes.push_back(fmt::format("{} relations stand twice", num_repeated));
+    return relations->size();
+  }
   notes.push_back("kept although refused: " + relations.error().to_line());
   return std::nullopt;
 }

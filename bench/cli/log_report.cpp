@@ -151,8 +151,10 @@ std::string sensor_lines(const LogReport& report) {
     text += "\n";
   }
   if (const auto& truth = health.truth) {
-    text += fmt::format("truth: {} poses, {:.3f} m, {:.1f} % of the scans have one within 10 ms\n",
-                        truth->num_poses, truth->path_m, 100 * truth->scans_with_pose_ratio);
+    text +=
+        fmt::format("{}: {} poses, {:.3f} m, {:.1f} % of the scans have one within 10 ms\n",
+                    report.log->provenance.is_truth_reference ? "reference (no truth)" : "truth",
+                    truth->num_poses, truth->path_m, 100 * truth->scans_with_pose_ratio);
   } else {
     text += "truth: no poses\n";
   }
@@ -188,6 +190,7 @@ Json to_json(const LogReport& report) {
           {"imu", sensor_json(health.imu_stamps, health.imu, imu_json)},
           {"truth", health.truth ? truth_json(*health.truth) : Json(nullptr)},
           {"num_relations", report.num_relations ? Json(*report.num_relations) : Json(nullptr)},
+          {"is_truth_reference", log.provenance.is_truth_reference},
           {"robot_model", robot_json(log.robot)},
           {"notes", log.provenance.notes},
           {"suspicions", health.suspicions},

@@ -8,6 +8,7 @@
 #include "bench/metrics/relations.hpp"
 #include "bench/metrics/score_case.hpp"
 #include "datasets/formats/lidar_clock.hpp"
+#include "datasets/formats/log_health.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "datasets/simulation/simulate.hpp"
@@ -46,6 +47,9 @@ Result<CaseData> recorded_data(const CaseSpec& spec, const catalog::DataDirs& di
   if (!loaded) return tl::make_unexpected(loaded.error());
   CaseData data;
   data.log = std::move(loaded->log);
+  for (const std::string& suspicion : formats::examine(data.log).suspicions) {
+    data.log.provenance.notes.push_back("suspicious: " + suspicion);
+  }
   if (loaded->relations) data.relations = std::move(*loaded->relations);
   if (loaded->world_file) {
     Result<simulation::SimulationTruth> truth = simulation::read_truth(*loaded->world_file);

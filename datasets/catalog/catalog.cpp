@@ -109,8 +109,12 @@ Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::st
     return fail(ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name));
   }
   const auto folder = find_folder(*entry, dirs);
+  std::vector<DataFile> files = entry->files;
+  for (const DataFile& file : entry->companions) {
+    if (folder && is_file(*folder / file.path)) files.push_back(file);
+  }
   std::vector<VerifiedFile> verified;
-  for (const DataFile& file : entry->files) {
+  for (const DataFile& file : files) {
     VerifiedFile row{file.path, FileStatus::kMissing, "", file.sha256};
     if (folder && is_file(*folder / file.path)) {
       auto sha256 = checksum_of(*folder / file.path, file);

@@ -52,6 +52,10 @@ struct CatalogEntry {
   std::string source;   // where it comes from
   // Why `data fetch` cannot get it; empty if every file has a URL.
   std::string not_fetchable;
+  // What belongs to it and is not read with it: another form of the log, what other programs made
+  // of it. Never fetched, for the reason that is stated.
+  std::vector<DataFile> companions;
+  std::string companions_not_fetchable;
   formats::StampOrder order = formats::StampOrder::kStamp;
   // Of files with another checksum, where they are accepted: canonical logs may keep their rows in
   // order and not their stamps.
@@ -117,7 +121,8 @@ struct VerifiedFile {
   std::string sha256_expected;
 };
 
-// Compares every file of an entry with the catalogue. An Error for an unknown name.
+// Compares every file of an entry with the catalogue, and those companions that are there. An Error
+// for an unknown name.
 Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::string_view name,
                                                  const DataDirs& dirs);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "datasets/catalog/entry_files.hpp"
@@ -16,7 +17,7 @@ namespace corridor::catalog {
 namespace {
 
 constexpr std::size_t kSha256Digits = 64;
-constexpr std::array<std::string_view, 15> kKeys = {"name",
+constexpr std::array<std::string_view, 17> kKeys = {"name",
                                                     "title",
                                                     "format",
                                                     "files",
@@ -28,9 +29,11 @@ constexpr std::array<std::string_view, 15> kKeys = {"name",
                                                     "joints",
                                                     "cut_after_s",
                                                     "calibration",
+                                                    "companions",
                                                     "no_return_range_m",
                                                     "not_fetchable",
-                                                    "order_of_other_files"};
+                                                    "order_of_other_files",
+                                                    "companions_not_fetchable"};
 constexpr std::array<std::string_view, 4> kFileKeys = {"path", "sha256", "content_sha256", "url"};
 
 bool is_sha256(std::string_view text) {
@@ -60,6 +63,7 @@ class EntryReader {
     entry_.source = text("source");
     take_files();
     take_fetching();
+    take_companions();
     take_choices();
     entry_.no_return_range_m = positive_number("no_return_range_m");
     entry_.cut_after_s = positive_number("cut_after_s");
@@ -107,49 +111,68 @@ class EntryReader {
 
   void take_files() {
     const toml::array* files = table_["files"].as_array();
-    if (files == nullptr || files->empty()) {
-      complain("files", "missing, empty or not a list");
-      return;
-    }
-    for (const toml::node& node : *files) {
-      if (const toml::table* file = node.as_table()) {
-        take_file(*file);
-      } else {
-        complain(node, "files", kFileForm);
-      }
-    }
+    if (files == nullptr || files->empty()) complain("files", "missing, empty or not a list");
+    entry_.files = files_of("files");
   }
 
-  void take_file(const toml::table& table) {
+  std::vector<DataFile> files_of(std::string_view key) {
+    std::vector<DataFile> taken;
+    const toml::array* files = table_[key].as_array();
+    if (files == nullptr) return taken;
+    for (const toml::node& node : *files) {
+      if (const toml::table* file = node.as_table()) {
+        if (auto good = file_of(*file, key)) taken.push_back(std::move(*good));
+      } else {
+        complain(node, key, kFileForm);
+      }
+    }
+    return taken;
+  }
+
+  std::optional<DataFile> file_of(const toml::table& table, std::string_view key) {
     const auto path = table["path"].value<std::string>();
     const auto sha256 = table["sha256"].value<std::string>();
     const auto content_sha256 = table["content_sha256"].value<std::string>();
     const auto url = table["url"].value<std::string>();
     bool is_known = true;
-    for (const auto& [key, node] : table) {
+    for (const auto& [file_key, node] : table) {
       is_known = is_known && node.is_string() &&
-                 std::find(kFileKeys.begin(), kFileKeys.end(), key.str()) != kFileKeys.end();
+                 std::find(kFileKeys.begin(), kFileKeys.end(), file_key.str()) != kFileKeys.end();
     }
     if (!is_known || !path || sha256.has_value() == content_sha256.has_value()) {
-      complain(table, "files", kFileForm);
-      return;
+      complain(table, key, kFileForm);
+      return std::nullopt;
     }
     DataFile file{*path, sha256.value_or(content_sha256.value_or("")), content_sha256.has_value(),
                   url.value_or("")};
     if (!is_sha256(file.sha256)) {
-      complain(table, "files", "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
+      complain(table, key, "sha256 of " + *path + " is not 64 lower-case hexadecimal digits");
     }
     if (url) {
       if (const auto good = check_public_url(*url); !good) {
-        complain(table, "files", "url of " + *path + ": " + good.error().to_line());
+        complain(table, key, "url of " + *path + ": " + good.error().to_line());
       }
     }
     const std::filesystem::path relative = file.path.lexically_normal();
     if (path->empty() || relative.is_absolute() || *relative.begin() == ".." ||
         !relative.has_filename()) {
-      complain(table, "files", *path + " does not lie in a data folder");
+      complain(table, key, *path + " does not lie in a data folder");
     }
-    entry_.files.push_back(std::move(file));
+    return file;
+  }
+
+  void take_companions() {
+    entry_.companions = files_of("companions");
+    const bool is_stated = table_.contains("companions");
+    if (is_stated != table_.contains("companions_not_fetchable")) {
+      complain("companions", "expected together with companions_not_fetchable, the reason");
+    } else if (is_stated) {
+      entry_.companions_not_fetchable = text("companions_not_fetchable");
+      if (entry_.companions.empty()) complain("companions", "empty or not a list");
+    }
+    for (const DataFile& file : entry_.companions) {
+      if (!file.url.empty()) complain("companions", "nothing fetches them; expected no url");
+    }
   }
 
   // What cannot be fetched says why, and nothing else does.

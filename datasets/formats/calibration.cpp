@@ -95,15 +95,17 @@ void reconcile_range_max(ParsedLog& log, const RobotOverride& model, RobotModel&
   robot.lidar.range_max_m = scans_m;
 }
 
-// A number the log states of its scans goes before the model's, with a note where both speak.
-void reconcile_number(const std::optional<double>& log_value, bool model_states, const char* what,
-                      double& model_value, std::vector<std::string>& notes) {
-  if (!log_value || std::abs(*log_value - model_value) <= kSameRange_ratio * model_value) return;
-  if (model_states) {
-    notes.push_back(fmt::format("the robot model's {} is {}, the scans' {}: the scans' is used",
-                                what, model_value, *log_value));
+// What the log states of its scans goes before the model's, with a note where both speak.
+void reconcile_range_min(const std::optional<double>& log_m, const RobotOverride& model,
+                         RobotModel& robot, std::vector<std::string>& notes) {
+  double& model_m = robot.lidar.range_min_m;
+  if (!log_m || std::abs(*log_m - model_m) <= kSameRange_ratio * model_m) return;
+  if (model.states_range_min) {
+    notes.push_back(
+        fmt::format("the robot model's minimum range [m] is {}, the scans' {}: the scans' is used",
+                    model_m, *log_m));
   }
-  model_value = *log_value;
+  model_m = *log_m;
 }
 
 // A sidecar may shorten the sensor's reach: longer beams become beams without return.
@@ -144,6 +146,11 @@ Result<void> apply_sidecar(ParsedLog& log, const CalibrationSources& sources, Ro
   if (stated->states_range_max && robot.lidar.range_max_m != log_range_max_m) {
     apply_sidecar_range(log, robot.lidar.range_max_m, notes);
   }
+  if (stated->states_scan_duration && log.scans_state_duration) {
+    log.scans_state_duration = false;
+    notes.push_back(fmt::format("every sweep takes {} s by the sidecar, {} s by the log's median",
+                                robot.lidar.scan_duration_s, median_duration_s(log)));
+  }
   return {};
 }
 
@@ -157,10 +164,7 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
   if (first_scan(log) != nullptr) {
     reconcile_lidar_pose(log, *model, log.scans_state_pose, robot, notes);
     reconcile_range_max(log, *model, robot, notes);
-    reconcile_number(log.range_min_m, model->states_range_min, "minimum range [m]",
-                     robot.lidar.range_min_m, notes);
-    reconcile_number(log.scan_duration_s, model->states_scan_duration, "scan duration [s]",
-                     robot.lidar.scan_duration_s, notes);
+    reconcile_range_min(log.range_min_m, *model, robot, notes);
   }
   if (log.T_base_imu) {
     if (model->states_imu_pose && !is_same_pose(*log.T_base_imu, robot.imu.T_base_imu)) {
@@ -177,7 +181,14 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
   }
   if (log.is_time_offset_applied) robot.lidar.time_offset_s = 0;
   if (log.scans_state_duration && first_scan(log) != nullptr) {
-    robot.lidar.scan_duration_s = median_duration_s(log);
+    const double median_s = median_duration_s(log);
+    const double model_s = robot.lidar.scan_duration_s;
+    if (model->states_scan_duration && median_s != model_s) {
+      notes.push_back(fmt::format(
+          "the robot model's scan duration is {} s, the scans' median {} s: each scan's is used",
+          model_s, median_s));
+    }
+    robot.lidar.scan_duration_s = median_s;
   }
   for_each_scan(log, [&](LaserScan& scan) {
     scan.range_min_m = robot.lidar.range_min_m;

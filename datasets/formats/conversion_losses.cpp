@@ -2,18 +2,48 @@
 // true.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "datasets/formats/rawlog/rawlog.hpp"
+#include "datasets/formats/robot_toml.hpp"
 
 namespace corridor::formats {
 namespace {
 
-// Angles and limits are 32-bit floats in a rawlog; a change below this is not worth a line.
-constexpr double kNoticed = 1e-6;
+// A turn of a frame below this is the rounding of its printed angle.
+constexpr double kNoticed_rad = 1e-6;
+
+bool is_float(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
+
+// A rawlog keeps the whole angle of a fan as one float, a bag its begin and its step.
+bool loses_angles_in_rawlog(const LaserScan& scan) {
+  const auto num_steps = static_cast<double>(scan.num_beams() < 2 ? 0 : scan.num_beams() - 1);
+  if (num_steps == 0) return false;
+  const auto aperture_rad = static_cast<float>(scan.angle_increment_rad * num_steps);
+  return static_cast<double>(aperture_rad) / num_steps != scan.angle_increment_rad;
+}
+
+bool loses_angles_in_bag(const LaserScan& scan) {
+  return !is_float(scan.angle_min_rad) || !is_float(scan.angle_increment_rad);
+}
+
+bool loses_duration_in_bag(const LaserScan& scan) {
+  if (scan.num_beams() < 2) return scan.duration_s != 0;
+  const auto num_steps = static_cast<double>(scan.num_beams() - 1);
+  const auto step_s = static_cast<float>(scan.duration_s / num_steps);
+  return static_cast<double>(step_s) * num_steps != scan.duration_s;
+}
+
+// Whether the model says more than what a reader that is told nothing takes for granted; `kept` is
+// what a file of the format says of it.
+bool says_more(const RobotModel& robot, const RobotModel& kept) {
+  return robot_to_toml(robot) != robot_to_toml(kept);
+}
 
 class LossFinder {
  public:
@@ -22,13 +52,15 @@ class LossFinder {
   std::vector<std::string> of_rawlog() {
     std::size_t num_fine_stamps = 0;
     std::size_t num_turned = 0;
+    std::size_t num_rounded = 0;
     for (const SensorEvent& event : log_.events) {
       if (stamp_of(event).nanoseconds % kRawlogTick_ns != 0) ++num_fine_stamps;
       const auto* scan = std::get_if<LaserScan>(&event);
       if (scan == nullptr) continue;
       const double turn_rad =
           centred_lidar_pose(*scan).theta_rad() - scan->T_base_lidar.theta_rad();
-      if (std::abs(wrap_angle(turn_rad)) > kNoticed) ++num_turned;
+      if (std::abs(wrap_angle(turn_rad)) > kNoticed_rad) ++num_turned;
+      if (loses_angles_in_rawlog(*scan)) ++num_rounded;
       count_model_differences(*scan);
     }
     note(num_fine_stamps, "stamps are rounded to 100 ns");
@@ -38,7 +70,8 @@ class LossFinder {
     note(num_other_limits_,
          "scans lose a minimum range or a duration that differs from the robot "
          "model's");
-    if (log_.num_scans() > 0) lines_.emplace_back("scan angles are rounded to 32-bit floats");
+    note(num_rounded, "scans have their angles rounded to 32-bit floats");
+    note_reference();
     return std::move(lines_);
   }
 
@@ -46,17 +79,12 @@ class LossFinder {
     std::size_t num_ticks = 0;
     std::size_t num_raw_ranges = 0;
     std::size_t num_at_limit = 0;
-    std::size_t num_scans_alone = 0;
     std::size_t num_swept = 0;
-    std::optional<Timestamp> last_wheels;
-    for (const SensorEvent& event : log_.events) {
-      if (const auto* sample = std::get_if<WheelSample>(&event)) {
-        if (sample->ticks) ++num_ticks;
-        last_wheels = sample->stamp;
-      }
-      const auto* scan = std::get_if<LaserScan>(&event);
+    for (const SensorEvent* event : carmen_events(log_)) {
+      const auto* sample = std::get_if<WheelSample>(event);
+      if (sample != nullptr && sample->ticks) ++num_ticks;
+      const auto* scan = std::get_if<LaserScan>(event);
       if (scan == nullptr) continue;
-      if (last_wheels != scan->stamp) ++num_scans_alone;
       if (scan->duration_s != 0) ++num_swept;
       for (std::size_t i = 0; i < scan->num_beams(); ++i) {
         const double range_m = scan->ranges_m[i];
@@ -68,9 +96,16 @@ class LossFinder {
     note(num_ticks, "wheel samples lose their encoder ticks");
     note(num_raw_ranges, "beams without return lose their raw range");
     note(num_at_limit, "beams of exactly the maximum range become beams without return");
-    note(num_scans_alone, "scans without a wheel sample of their stamp get an interpolated one");
+    note_scans_alone();
     note(num_swept, "scans lose the time their sweep took");
-    lines_.emplace_back("the robot model is left out, but for the LiDAR's pose and range");
+    RobotModel kept;
+    kept.lidar.T_base_lidar = log_.robot.lidar.T_base_lidar;
+    kept.lidar.range_max_m = log_.robot.lidar.range_max_m;
+    kept.lidar.scan_duration_s = log_.robot.lidar.scan_duration_s;  // said above
+    if (says_more(log_.robot, kept)) {
+      lines_.emplace_back("the robot model is left out, but for the LiDAR's pose and range");
+    }
+    note_reference();
     return std::move(lines_);
   }
 
@@ -78,11 +113,15 @@ class LossFinder {
     std::size_t num_ticks = 0;
     std::size_t num_raw_ranges = 0;
     std::size_t num_near = 0;
+    std::size_t num_rounded = 0;
+    std::size_t num_durations = 0;
     for (const SensorEvent& event : log_.events) {
       const auto* sample = std::get_if<WheelSample>(&event);
       if (sample != nullptr && sample->ticks) ++num_ticks;
       const auto* scan = std::get_if<LaserScan>(&event);
       if (scan == nullptr) continue;
+      if (loses_angles_in_bag(*scan)) ++num_rounded;
+      if (loses_duration_in_bag(*scan)) ++num_durations;
       for (std::size_t i = 0; i < scan->num_beams(); ++i) {
         const double range_m = scan->ranges_m[i];
         const bool looks_valid =
@@ -94,12 +133,49 @@ class LossFinder {
     note(num_ticks, "wheel samples lose their encoder ticks");
     note(num_raw_ranges, "beams without return lose their raw range");
     note(num_near, "beams below the minimum range become beams without return");
-    if (log_.num_scans() > 0) lines_.push_back("scan angles are rounded to 32-bit floats");
-    lines_.push_back("the robot model is left out, with the places of LiDAR and IMU");
+    note(num_rounded, "scans have their angles rounded to 32-bit floats");
+    note(num_durations, "scans have the time of their sweep rounded to 32-bit floats");
+    RobotModel kept;
+    kept.lidar.range_min_m = log_.robot.lidar.range_min_m;
+    kept.lidar.range_max_m = log_.robot.lidar.range_max_m;
+    kept.lidar.scan_duration_s = log_.robot.lidar.scan_duration_s;
+    if (says_more(log_.robot, kept)) {
+      lines_.emplace_back("the robot model is left out, with the places of LiDAR and IMU");
+    }
+    note_reference();
     return std::move(lines_);
   }
 
  private:
+  // CARMEN's laser lines state a pose, whether the wheels gave one then or not.
+  void note_scans_alone() {
+    const auto events = carmen_events(log_);
+    const auto is_wheels = [](const SensorEvent* event) {
+      return std::holds_alternative<WheelSample>(*event);
+    };
+    const auto first = std::find_if(events.begin(), events.end(), is_wheels);
+    const auto last = std::find_if(events.rbegin(), events.rend(), is_wheels);
+    if (first == events.end()) return;  // refused
+    std::size_t num_between = 0;
+    std::size_t num_outside = 0;
+    std::optional<Timestamp> wheels;
+    for (const SensorEvent* event : events) {
+      const Timestamp stamp = stamp_of(*event);
+      if (is_wheels(event)) wheels = stamp;
+      if (is_wheels(event) || wheels == stamp) continue;
+      const bool is_outside = stamp < stamp_of(**first) || stamp > stamp_of(**last);
+      ++(is_outside ? num_outside : num_between);
+    }
+    note(num_between, "scans without a wheel sample of their stamp get an interpolated one");
+    note(num_outside, "scans before the first or behind the last wheel sample get its pose");
+  }
+
+  void note_reference() {
+    if (!log_.truth || !log_.provenance.is_truth_reference) return;
+    note(log_.truth->size(),
+         "poses that another program found are no truth: they go to LOG.reference.tum");
+  }
+
   void note(std::size_t count, const std::string& what) {
     if (count > 0) lines_.push_back(fmt::format("{} {}", count, what));
   }

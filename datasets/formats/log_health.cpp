@@ -13,8 +13,7 @@ namespace corridor::formats {
 namespace {
 
 constexpr double kGapFactor = 5;
-constexpr double kJumpSlack_m = 0.5;  // as corridor::defects() allows besides the speed
-constexpr double kSpeedWindow_s = 0.2;
+constexpr double kFarMedians = 3;  // ranges beyond as many medians may be codes
 constexpr double kTurnWindow_s = 1;
 // Of a window: on straight ways unequal wheels drift, and there is no turn to compare.
 constexpr double kLeastWindowTurn_rad = 0.05;
@@ -78,6 +77,23 @@ StampHealth stamps_of(const std::vector<Placed<T>>& readings, const EventPlaces&
   return health;
 }
 
+void find_shared_range(std::vector<float> valid_m, LidarHealth& health) {
+  const auto num_valid = static_cast<double>(valid_m.size());
+  const double far_m = kFarMedians * health.median_range_m;
+  std::erase_if(valid_m, [far_m](float range_m) { return range_m <= far_m; });
+  std::sort(valid_m.begin(), valid_m.end());
+  for (auto begin = valid_m.begin(); begin != valid_m.end();) {
+    const auto end = std::upper_bound(begin, valid_m.end(), *begin);
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (count > health.num_most_shared) {
+      health.num_most_shared = count;
+      health.most_shared_range_m = *begin;
+    }
+    begin = end;
+  }
+  health.most_shared_ratio = static_cast<double>(health.num_most_shared) / num_valid;
+}
+
 LidarHealth lidar_of(const std::vector<Placed<LaserScan>>& scans, const EventPlaces& places) {
   LidarHealth health;
   const LaserScan& first = *scans.front().reading;
@@ -106,7 +122,8 @@ LidarHealth lidar_of(const std::vector<Placed<LaserScan>>& scans, const EventPla
   health.invalid_ratio = 1 - static_cast<double>(valid_m.size()) / static_cast<double>(num_beams);
   if (valid_m.empty()) return health;
   health.min_range_m = *std::min_element(valid_m.begin(), valid_m.end());
-  health.median_range_m = median_of(std::move(valid_m));
+  health.median_range_m = median_of(valid_m);
+  find_shared_range(std::move(valid_m), health);
   return health;
 }
 
@@ -143,11 +160,11 @@ WheelHealth wheels_of(const std::vector<Placed<WheelSample>>& samples, const Log
     health.turn_rad += std::abs(step.theta_rad());
     const double step_s = seconds_between(last.stamp, sample.stamp);
     if (step_s <= 0) continue;
-    if (length_m > limits.max_speed_mps * step_s + kJumpSlack_m) ++health.num_jumps;
+    if (length_m > limits.max_speed_mps * step_s + limits.max_jump_m) ++health.num_jumps;
     window.duration_s += step_s;
     window.path_m += length_m;
     window.turn_rad += std::abs(step.theta_rad());
-    if (window.duration_s < kSpeedWindow_s) continue;
+    if (window.duration_s < limits.speed_window_s) continue;
     take_window(window, places.of(samples[i].index), health);
     window = {};
   }
@@ -260,22 +277,21 @@ TruthHealth truth_of(const Trajectory& truth, const std::vector<Placed<LaserScan
   return health;
 }
 
-// "event 5: ..." -> "line 12, event 5: ...".
-std::string with_place(std::string line, const EventPlaces& places) {
-  constexpr std::string_view kEvent = "event ";
-  if (!line.starts_with(kEvent)) return line;
-  std::size_t index = 0;
-  const auto [end, error] =
-      std::from_chars(line.data() + kEvent.size(), line.data() + line.size(), index);
-  if (error != std::errc() || index >= places.origins.size()) return line;
-  return places.of(index) + ", " + line;
-}
-
 }  // namespace
 
 std::string EventPlaces::of(std::size_t event_index) const {
   return event_index < origins.size() ? fmt::format("{} {}", unit, origins[event_index])
                                       : fmt::format("event {}", event_index);
+}
+
+std::string EventPlaces::placed(std::string defect) const {
+  constexpr std::string_view kEvent = "event ";
+  if (!defect.starts_with(kEvent)) return defect;
+  std::size_t index = 0;
+  const auto [end, error] =
+      std::from_chars(defect.data() + kEvent.size(), defect.data() + defect.size(), index);
+  if (error != std::errc() || index >= origins.size()) return defect;
+  return of(index) + ", " + defect;
 }
 
 LogHealth examine(const SensorLog& log, const EventPlaces& places, const LogLimits& limits,
@@ -293,7 +309,7 @@ LogHealth examine(const SensorLog& log, const EventPlaces& places, const LogLimi
   if (!imu.empty()) health.imu = imu_of(log, imu, places);
   if (log.truth) health.truth = truth_of(*log.truth, scans);
   for (std::string& line : defects(log, limits, max_defects)) {
-    health.defects.push_back(with_place(std::move(line), places));
+    health.defects.push_back(places.placed(std::move(line)));
   }
   health.suspicions = suspicions_of(health, log.robot, limits);
   return health;

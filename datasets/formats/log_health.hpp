@@ -19,6 +19,9 @@ struct EventPlaces {
 
   // "line 12", or "event 5" where no file is known.
   [[nodiscard]] std::string of(std::size_t event_index) const;
+  // A line of corridor::defects() with the place in the file: "event 5: ..." -> "line 12, event 5:
+  // ...".
+  [[nodiscard]] std::string placed(std::string defect) const;
 };
 
 // Stamps of one sensor in the order of the log.
@@ -46,6 +49,11 @@ struct LidarHealth {
   double median_range_m = 0;
   double max_range_m = 0;
   double range_limit_m = 0;  // the sensor's, as the scans state it
+  // The one value that most returns beyond three medians have, and their share of all returns: no
+  // surface is at exactly one distance, codes for "no return" are.
+  double most_shared_range_m = 0;
+  double most_shared_ratio = 0;
+  std::size_t num_most_shared = 0;
   std::string longest_range_at;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
@@ -11,11 +12,13 @@
 #include "datasets/formats/calibration.hpp"
 #include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/file_bytes.hpp"
+#include "datasets/formats/log_health.hpp"
 #include "datasets/formats/log_parsers.hpp"
 #include "datasets/formats/parsed_log.hpp"
 #include "datasets/formats/rawlog/rawlog.hpp"
 #include "datasets/formats/stamp_order.hpp"
 #include "datasets/formats/tick_odometry.hpp"
+#include "datasets/formats/trajectories/trajectory_texts.hpp"
 #include "datasets/formats/trajectories/tum.hpp"
 
 namespace corridor::formats {
@@ -94,21 +97,28 @@ Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOption
         "{} poses of the log itself stand in for truth: a reference that another program found",
         reference->size()));
     log.truth = std::move(*reference);
+    log.provenance.is_truth_reference = true;
     return {};
   }
-  auto truth = read_tum(*tum);
+  const auto text = read_file_bytes(*tum);
+  if (!text) return tl::make_unexpected(text.error());
+  auto truth = parse_tum_trajectory(*text, tum->string());
   if (!truth) return tl::make_unexpected(truth.error());
-  log.truth = std::move(*truth);
+  for (const std::string& note : truth->notes) log.provenance.notes.push_back("truth: " + note);
+  log.truth = std::move(truth->trajectory);
   return {};
 }
 
-// One line for the user: the first defect, and how many more there are.
-Result<void> refuse_defects(const SensorLog& log, const LogLimits& limits) {
-  const std::vector<std::string> found = defects(log, limits);
-  if (found.empty()) return {};
+// One line for the user: the first defect with its place, and how many more there are.
+Result<void> refuse_defects(const LogAsFound& found, const LogLimits& limits) {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  const std::vector<std::string> lines = defects(found.log, limits, kAll);
+  if (lines.empty()) return {};
+  const EventPlaces places{found.origins, found.origin_unit};
   const std::string more =
-      found.size() > 1 ? fmt::format(" (and {} more defects)", found.size() - 1) : "";
-  return fail(ErrorCode::kInvalid, found.front() + more, log.provenance.source);
+      lines.size() > 1 ? fmt::format(" (and {} more defects)", lines.size() - 1) : "";
+  return fail(ErrorCode::kInvalid, places.placed(lines.front()) + more,
+              found.log.provenance.source);
 }
 
 // What is refused besides files that are no log of their format.
@@ -212,7 +222,7 @@ Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,
 Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptions& options) {
   auto found = read(path, options, Refusals::kAll);
   if (!found) return tl::make_unexpected(found.error());
-  if (auto sound = refuse_defects(found->log, options.limits); !sound) {
+  if (auto sound = refuse_defects(*found, options.limits); !sound) {
     return tl::make_unexpected(sound.error());
   }
   return std::move(found->log);
@@ -229,6 +239,10 @@ Result<void> write_rawlog(const SensorLog& log, const std::filesystem::path& pat
 Result<void> write_carmen(const SensorLog& log, const std::filesystem::path& path) {
   if (log.num_scans() == 0) {
     return fail(ErrorCode::kInvalid, "the log has no scan", path.string(), "at least one");
+  }
+  if (log.num_wheel_samples() == 0) {
+    return fail(ErrorCode::kUnsupported, "the log has no wheel sample", path.string(),
+                "odometry for CARMEN's laser lines, or another format");
   }
   const std::string text = carmen_text(log);
   if (path.extension() != ".gz") return write_file_atomically(path, text);
@@ -253,7 +267,8 @@ Result<void> write_log(const SensorLog& log, const std::filesystem::path& path) 
                  : *format == LogFormat::kRosbag ? write_rosbag(log, path)
                                                  : write_carmen(log, path);
   if (!written || !log.truth) return written;
-  return write_tum(*log.truth, sidecar_of(path, ".tum"));
+  return write_tum(*log.truth,
+                   sidecar_of(path, log.provenance.is_truth_reference ? ".reference.tum" : ".tum"));
 }
 
 }  // namespace corridor::formats

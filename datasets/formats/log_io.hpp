@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -97,15 +98,32 @@ Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,
 Result<void> write_rawlog(const SensorLog& log, const std::filesystem::path& path);
 
 // ROBOTLASER1 and ODOM lines with stamps of 9 decimals; gzip-compressed if the name ends in .gz.
-// Writes no truth. An Error if the log has no scan.
+// Writes no truth. An Error if the log has no scan, or no wheel sample: every laser line states the
+// odometry's pose.
 Result<void> write_carmen(const SensorLog& log, const std::filesystem::path& path);
 
 // Topics /scan, /odom and /imu of a ROS 1 bag, LZ4. Writes no truth. An Error if a stamp does not
 // fit ROS time.
 Result<void> write_rosbag(const SensorLog& log, const std::filesystem::path& path);
 
-// By the suffix of `path`, including truth as LOG.tum beside it.
+// By the suffix of `path`, including truth as LOG.tum beside it. A reference that stands in for
+// truth goes to LOG.reference.tum, which no reader takes for truth.
 Result<void> write_log(const SensorLog& log, const std::filesystem::path& path);
+
+struct ReadingCounts {
+  std::size_t num_scans = 0;
+  std::size_t num_wheel_samples = 0;
+  std::size_t num_imu_samples = 0;
+
+  bool operator==(const ReadingCounts&) const = default;
+};
+
+// What a file of this format holds of the log.
+ReadingCounts readings_held(const SensorLog& log, LogFormat target);
+
+// Reads what write_log() wrote: an Error if the suite's own reader refuses it or finds another
+// number of readings than readings_held() promises.
+Result<void> check_written_log(const SensorLog& log, const std::filesystem::path& path);
 
 // What `target` cannot hold of this very log, one line each; empty = nothing is lost.
 std::vector<std::string> losses_of_conversion(const SensorLog& log, LogFormat target);

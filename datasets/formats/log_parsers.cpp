@@ -1,5 +1,7 @@
 #include "datasets/formats/log_parsers.hpp"
 
+#include <fmt/format.h>
+
 #include <system_error>
 #include <utility>
 
@@ -23,7 +25,14 @@ Result<ParsedLog> parse_flaser_or_robotlaser(std::string_view bytes, const std::
   CarmenOptions carmen;
   carmen.no_return_range_m = options.no_return_range_m;
   carmen.flaser_range_max_m = options.robot ? options.robot->lidar.range_max_m : kFlaserRangeMax_m;
-  return parse_carmen(bytes, file, carmen);
+  auto parsed = parse_carmen(bytes, file, carmen);
+  const bool has_flaser_lines = parsed && !parsed->scans_state_pose;
+  if (has_flaser_lines && !options.no_return_range_m && !options.robot) {
+    parsed->notes.push_back(fmt::format(
+        "FLASER lines state no limit: {} m is assumed, which may take codes for returns",
+        carmen.flaser_range_max_m));
+  }
+  return parsed;
 }
 
 // Raw numbers need their calibration before they are readings.

@@ -16,6 +16,11 @@ constexpr double kFarRange_m = 100;
 constexpr double kFarLimit_m = 1000;
 constexpr double kNearRange_m = 0.1;
 constexpr double kMostlyInvalid_ratio = 0.95;
+// Returns at exactly one far range: in recorded logs less than a fifth as many share one.
+constexpr double kSharedRange_ratio = 5e-3;
+constexpr std::size_t kLeastShared = 20;
+// No robot indoors is as fast.
+constexpr double kFastWheels_mps = 5;
 // Half of gravity: no robot keeps that up over half a log.
 constexpr double kHalfGravity_mps2 = 4.9;
 // Degrees for radians is a factor of 57.3, give or take slip and bias.
@@ -70,6 +75,12 @@ class Suspicions {
       add(fmt::format("{}: {:.3f} s between readings; milliseconds for seconds?", sensor,
                       stamps.median_step_s));
     }
+    if (stamps.longest_gap_s > kSlowestStep_s && stamps.num_gaps > 0) {
+      add(fmt::format(
+          "{}: no reading for {:.3f} s before {}; a clock that jumps, or a break in the "
+          "recording?",
+          sensor, stamps.longest_gap_s, stamps.longest_gap_at));
+    }
     const bool is_lidar = &stamps == &health_.lidar_stamps;
     if (is_lidar && stamps.median_step_s > 0 && stamps.median_step_s < kFastestScan_s) {
       add(fmt::format("{}: {:.6f} s between scans; seconds for milliseconds?", sensor,
@@ -99,6 +110,13 @@ class Suspicions {
       add(fmt::format("LiDAR: {:.1f} % of the beams are without return; a limit in another unit?",
                       100 * lidar.invalid_ratio));
     }
+    if (lidar.num_most_shared >= kLeastShared && lidar.most_shared_ratio > kSharedRange_ratio) {
+      add(fmt::format(
+          "LiDAR: {} returns ({:.2f} %) at exactly {:.3f} m; a code for no return, below "
+          "the limit of {:.3f} m?",
+          lidar.num_most_shared, 100 * lidar.most_shared_ratio, lidar.most_shared_range_m,
+          lidar.range_limit_m));
+    }
     const double step_s = health_.lidar_stamps.median_step_s;
     if (step_s > 0 && std::abs(robot_.lidar.scan_duration_s) > kSameRate_factor * step_s) {
       add(fmt::format("robot model: a sweep of {} s, but a scan every {:.4f} s",
@@ -107,7 +125,7 @@ class Suspicions {
   }
 
   void suspect_wheels(const WheelHealth& wheels) {
-    if (wheels.max_speed_mps > limits_.max_speed_mps) {
+    if (wheels.max_speed_mps > kFastWheels_mps) {
       add(
           fmt::format("wheels: {:.2f} m/s ({}); centimetres or millimetres for metres, a jump, or "
                       "stamps in another unit?",

@@ -2,8 +2,10 @@
 // and defects are looked at.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +17,16 @@ namespace corridor::formats {
 // A beam count above this is a corrupted number, not a sensor; checked before anything is
 // allocated.
 inline constexpr std::size_t kMaxBeams = 65'536;
+
+// A fan of more than a turn is degrees taken for radians, or a corrupted number.
+inline bool exceeds_full_turn(std::size_t num_beams, double angle_increment_rad) {
+  constexpr double kPrinted_rad = 1e-3;  // angles of few digits
+  const double num_steps = num_beams < 2 ? 0 : static_cast<double>(num_beams - 1);
+  return !(std::abs(angle_increment_rad) * num_steps <= 2 * std::numbers::pi + kPrinted_rad);
+}
+
+// A heading beyond this is no number of turns a robot makes, and has lost its digits.
+inline constexpr double kMaxHeading_rad = 1e6;
 
 struct ParsedLog {
   std::vector<SensorEvent> events;
@@ -37,7 +49,6 @@ struct ParsedLog {
   std::optional<Pose2> T_base_imu;
   // What the log says of its scans besides their range_max_m.
   std::optional<double> range_min_m;
-  std::optional<double> scan_duration_s;  // first to last beam
   // Wheel samples have ticks; their poses follow from them and the robot model.
   bool has_wheel_ticks_only = false;
   // Counted repairs and things left out, by what was done: "beams of range 0 taken as no return"

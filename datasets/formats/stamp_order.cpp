@@ -89,11 +89,11 @@ Result<void> check_stamp_order(const ParsedLog& log, const std::string& file) {
     if (last && stamp < *last) {
       return fail(ErrorCode::kInvalid,
                   fmt::format("stamp steps back by {:.6f} s", seconds_between(stamp, *last)), where,
-                  "stamps in order (or order = \"file\" if the rows are)");
+                  "stamps in order (a catalogue entry with order = \"file\" keeps the rows')");
     }
     if (last_here && stamp == *last_here) {
       return fail(ErrorCode::kInvalid, "stamp repeats that of the sensor's last reading", where,
-                  "a later one (or order = \"file\")");
+                  "a later one (a catalogue entry with order = \"file\" keeps the rows')");
     }
     last = last_here = stamp;
   }

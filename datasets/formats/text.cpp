@@ -50,6 +50,7 @@ std::vector<std::string_view> split_fields(std::string_view line) {
   std::vector<std::string_view> fields;
   for (auto field = take_field(line); !field.empty(); field = take_field(line)) {
     fields.push_back(field);
+    if (fields.size() == kMaxLineFields) break;
   }
   return fields;
 }
@@ -61,6 +62,11 @@ std::optional<std::string_view> take_line(std::string_view& text) {
   text.remove_prefix(std::min(length + 1, text.size()));
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return line;
+}
+
+std::optional<std::string> note_on_end(std::string_view text) {
+  if (text.empty() || text.back() == '\n') return std::nullopt;
+  return "the last line has no end: the file may have been cut short";
 }
 
 std::optional<double> parse_double(std::string_view field) { return parse_number<double>(field); }

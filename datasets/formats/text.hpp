@@ -2,6 +2,7 @@
 // the locale. It knows no format.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,12 +16,18 @@ namespace corridor::formats {
 // Takes the next field (separated by blanks or tabs) off the front of `line`; empty at the end.
 std::string_view take_field(std::string_view& line);
 
-// All fields of a line.
+// More fields than a line of any format has: an endless line is read no further.
+inline constexpr std::size_t kMaxLineFields = 200'000;
+
+// The fields of a line, at most kMaxLineFields.
 std::vector<std::string_view> split_fields(std::string_view line);
 
 // Takes the next line off the front of `text`, without its end ("\n" or "\r\n"); nullopt at the
 // end.
 std::optional<std::string_view> take_line(std::string_view& text);
+
+// What to note where the last line has no "\n": its last number may be cut. nullopt for whole text.
+std::optional<std::string> note_on_end(std::string_view text);
 
 // The whole field must be a number; "nan" and "inf" are numbers here, a leading '+' is allowed.
 std::optional<double> parse_double(std::string_view field);

@@ -172,6 +172,7 @@ class TicksParser {
 
 Result<ParsedLog> parse_ticks(std::string_view text, const std::string& file,
                               const RobotModel& robot, RawClock clock) {
+  const auto note = note_on_end(text);
   TicksParser parser(file, robot, clock);
   std::uint64_t line_number = 0;
   while (const auto line = take_line(text)) {
@@ -179,7 +180,9 @@ Result<ParsedLog> parse_ticks(std::string_view text, const std::string& file,
       return tl::make_unexpected(taken.error());
     }
   }
-  return parser.finish();
+  Result<ParsedLog> log = parser.finish();
+  if (log && note) log->notes.push_back(*note);
+  return log;
 }
 
 }  // namespace corridor::formats

@@ -27,8 +27,9 @@ std::optional<std::string> defect(const LaserScan& scan) {
                        scan.num_beams(), scan.is_valid.size());
   }
   if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad) ||
-      !scan.T_base_lidar.is_finite() || !std::isfinite(scan.range_max_m)) {
-    return "scan geometry is not finite";
+      !scan.T_base_lidar.is_finite() || !std::isfinite(scan.range_max_m) ||
+      !std::isfinite(scan.duration_s)) {
+    return "scan geometry or duration is not finite; expected finite numbers";
   }
   for (std::size_t i = 0; i < scan.num_beams(); ++i) {
     if (!scan.is_valid[i]) continue;
@@ -43,7 +44,7 @@ std::optional<std::string> defect(const LaserScan& scan) {
 
 std::optional<std::string> defect(const WheelSample& sample) {
   if (sample.T_odom_base.is_finite()) return std::nullopt;
-  return "odometry pose is not finite";
+  return "odometry pose is not finite; expected finite numbers";
 }
 
 std::optional<std::string> defect(const ImuSample& sample) {
@@ -51,7 +52,7 @@ std::optional<std::string> defect(const ImuSample& sample) {
       std::isfinite(sample.accel_y_mps2)) {
     return std::nullopt;
   }
-  return "IMU reading is not finite";
+  return "IMU reading is not finite; expected finite numbers";
 }
 
 class DefectFinder {
@@ -65,6 +66,8 @@ class DefectFinder {
 
   void visit(std::size_t index, const SensorEvent& event) {
     check_order(index, event);
+    first_of_sensor_.try_emplace(event.index(), Place{index, stamp_of(event)});
+    last_place_of_sensor_[event.index()] = {index, stamp_of(event)};
     if (const auto what = defect_of(event)) {
       add(fmt::format("event {}: {}", index, *what));
     } else {
@@ -72,9 +75,46 @@ class DefectFinder {
     }
   }
 
+  // A sensor that begins long after the log or ends long before it is a log cut or badly joined.
+  void check_span(const std::vector<SensorEvent>& events) {
+    const Timestamp begin = stamp_of(events.front());
+    const Timestamp end = stamp_of(events.back());
+    for (const auto& [sensor, first] : first_of_sensor_) {
+      const Place& last = last_place_of_sensor_.at(sensor);
+      const double late_s = seconds_between(begin, first.stamp);
+      const double early_s = seconds_between(last.stamp, end);
+      const char* name = name_of(events[first.event_index]);
+      if (late_s > limits_.max_gap_s) {
+        add(
+            fmt::format("event {}: the first {} comes {:.3f} s after the log's first reading; "
+                        "expected at most {} s",
+                        first.event_index, name, late_s, limits_.max_gap_s));
+      }
+      if (early_s > limits_.max_gap_s) {
+        add(
+            fmt::format("event {}: the last {} comes {:.3f} s before the log's end; expected at "
+                        "most {} s",
+                        last.event_index, name, early_s, limits_.max_gap_s));
+      }
+    }
+  }
+
   std::vector<std::string> take() { return std::move(found_); }
 
  private:
+  struct Place {
+    std::size_t event_index = 0;
+    Timestamp stamp;
+  };
+
+  // Of the wheels, since the last window was full.
+  struct Window {
+    double duration_s = 0;
+    double path_m = 0;
+    double turn_rad = 0;
+    bool has_jump = false;  // said already
+  };
+
   void check_order(std::size_t index, const SensorEvent& event) {
     const Timestamp stamp = stamp_of(event);
     if (last_stamp_ && stamp < *last_stamp_) {
@@ -108,18 +148,49 @@ class DefectFinder {
     if (last_wheel_) {
       const double step_s = seconds_between(last_wheel_->stamp, sample.stamp);
       const Pose2 step = last_wheel_->T_odom_base.between(sample.T_odom_base);
-      if (step_s > 0 && step.translation_m().norm() > limits_.max_speed_mps * step_s + 0.5) {
-        add(fmt::format("event {}: odometry moves {:.3f} m in {:.4f} s; expected at most {} m/s",
-                        index, step.translation_m().norm(), step_s, limits_.max_speed_mps));
-      }
+      if (step_s > 0) check_step(index, step_s, step);
     }
     last_wheel_ = sample;
+  }
+
+  void check_step(std::size_t index, double step_s, const Pose2& step) {
+    const double length_m = step.translation_m().norm();
+    if (!(length_m <= limits_.max_speed_mps * step_s + limits_.max_jump_m)) {
+      add(fmt::format("event {}: odometry moves {:.3f} m in {:.4f} s; expected at most {} m/s",
+                      index, length_m, step_s, limits_.max_speed_mps));
+      window_.has_jump = true;
+    }
+    window_.duration_s += step_s;
+    window_.path_m += length_m;
+    window_.turn_rad += std::abs(step.theta_rad());
+    if (window_.duration_s < limits_.speed_window_s) return;
+    check_window(index);
+    window_ = {};
+  }
+
+  void check_window(std::size_t index) {
+    const double speed_mps = window_.path_m / window_.duration_s;
+    const double yaw_rate_radps = window_.turn_rad / window_.duration_s;
+    if (speed_mps > limits_.max_speed_mps && !window_.has_jump) {
+      add(fmt::format("event {}: odometry moves {:.3f} m in {:.4f} s; expected at most {} m/s",
+                      index, window_.path_m, window_.duration_s, limits_.max_speed_mps));
+    }
+    if (yaw_rate_radps > limits_.max_yaw_rate_radps) {
+      add(fmt::format(
+          "event {}: odometry turns {:.3f} rad in {:.4f} s; expected at most {} rad/s (degrees?)",
+          index, window_.turn_rad, window_.duration_s, limits_.max_yaw_rate_radps));
+    }
   }
 
   void check(std::size_t index, const ImuSample& sample) {
     if (std::abs(sample.gyro_z_radps) > limits_.max_yaw_rate_radps) {
       add(fmt::format("event {}: yaw rate {:.3f} rad/s; expected at most {} (degrees per second?)",
                       index, sample.gyro_z_radps, limits_.max_yaw_rate_radps));
+    }
+    const double acceleration_mps2 = std::hypot(sample.accel_x_mps2, sample.accel_y_mps2);
+    if (acceleration_mps2 > limits_.max_acceleration_mps2) {
+      add(fmt::format("event {}: acceleration {:.3f} m/s2; expected at most {} (raw counts?)",
+                      index, acceleration_mps2, limits_.max_acceleration_mps2));
     }
   }
 
@@ -129,7 +200,10 @@ class DefectFinder {
   std::optional<Timestamp> last_stamp_;
   std::map<std::size_t, std::optional<Timestamp>> last_of_sensor_;
   std::optional<std::size_t> num_beams_;
+  std::map<std::size_t, Place> first_of_sensor_;
+  std::map<std::size_t, Place> last_place_of_sensor_;
   std::optional<WheelSample> last_wheel_;
+  Window window_;
 };
 
 }  // namespace
@@ -160,6 +234,7 @@ std::vector<std::string> defects(const SensorLog& log, const LogLimits& limits,
     finder.add("the log has no LiDAR scan; expected at least one");
   }
   for (std::size_t i = 0; i < log.events.size(); ++i) finder.visit(i, log.events[i]);
+  if (!log.events.empty()) finder.check_span(log.events);
   return finder.take();
 }
 

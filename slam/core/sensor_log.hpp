@@ -29,6 +29,8 @@ struct Provenance {
   std::string format;  // "rawlog", "carmen", "simulation"
   std::vector<std::string>
       notes;  // counted, reported repairs: "12 stamps moved by isotonic regression"
+  // The log's truth is what another program found while it was recorded.
+  bool is_truth_reference = false;
 };
 
 struct SensorLog {
@@ -46,15 +48,22 @@ struct SensorLog {
 };
 
 struct LogLimits {
-  double max_gap_s = 10.0;      // between consecutive events of one sensor; longer is an error
-  double max_speed_mps = 10.0;  // of the wheel odometry; faster means wrong units or stamps
-  double max_yaw_rate_radps = 20.0;
+  // Between consecutive events of one sensor, or between its first or last and the log's.
+  double max_gap_s = 10.0;
+  double max_speed_mps = 10.0;       // of the wheel odometry; faster means wrong units or stamps
+  double max_yaw_rate_radps = 20.0;  // of wheels and gyro
+  // Both of the wheels are means over this or a step, whichever is longer: stamps that nearly
+  // coincide say nothing about speed.
+  double speed_window_s = 0.2;
+  double max_jump_m = 0.5;               // one step of the wheels, besides what the speed allows
+  double max_acceleration_mps2 = 200.0;  // 20 g: more than sensors of robots measure
 };
 
 // Every defect that makes the log unfit, one line each, with the event's index: empty log, no scan,
-// stamps that step back or repeat within a sensor, gaps, non-finite values, beam counts that change
-// or differ between arrays, a valid range outside the sensor's limits, impossible speeds, a robot
-// model that breaks its rules. At most `max_lines` lines. Nothing is repaired.
+// stamps that step back or repeat within a sensor, gaps, a sensor that begins late or ends early,
+// non-finite values, beam counts that change or differ between arrays, a valid range outside the
+// sensor's limits, impossible speeds and accelerations, a robot model that breaks its rules. At
+// most `max_lines` lines. Nothing is repaired.
 std::vector<std::string> defects(const SensorLog& log, const LogLimits& limits = {},
                                  std::size_t max_lines = 20);
 

@@ -7,6 +7,7 @@ Every file is put together byte by byte from the formats' descriptions, so that 
 the same and independent of the readers and writers it is for. The other seeds are text, kept by hand.
 """
 import bz2
+import math
 import struct
 import zlib
 from pathlib import Path
@@ -124,6 +125,7 @@ TYPES = {
     "odom": (b"nav_msgs/Odometry", b"cd5e73d190d741a2f92e81eda573aca7"),
     "imu": (b"sensor_msgs/Imu", b"6a62c6daae103f4ff57a132d6f95cec2"),
     "joints": (b"sensor_msgs/JointState", b"3066dcd76a6cfaef579bd0f34173e9fd"),
+    "clockwise": (b"sensor_msgs/LaserScan", b"90c7ef2dc6895d81024acba2ac42f369"),
 }
 CONNECTIONS = list(TYPES)
 
@@ -155,6 +157,9 @@ def ros_message(kind, ns, step):
         ranges = [1.0, 1.5, 5.5, 2.0]
         return (header + struct.pack("<7f", -0.375, 0.375, 0.25, 0, 0.1, 0.125, 4.5)
                 + u32(4) + struct.pack("<4f", *ranges) + u32(0))
+    if kind == "clockwise":  # from the left to the right, a beam each 1/64 s
+        return (header + struct.pack("<7f", 0.375, -0.375, -0.25, 1 / 64, 0.1, 0.125, 4.5)
+                + u32(4) + struct.pack("<4f", 2.0, 5.5, 1.5, 1.0) + u32(0))
     if kind == "odom":
         pose = struct.pack("<7d", 0.05 * step, 0, 0, 0, 0, 0, 1) + bytes(8 * 36)
         return header + ros_text(b"b") + pose + bytes(8 * 6) + bytes(8 * 36)
@@ -258,6 +263,7 @@ def bags():
     scans = [("scan", 100 * second + i * second // 10, i) for i in range(2)]
     joints = [m for i in range(2) for m in (("joints", 100 * second + i * second // 10, i),
                                             ("scan", 100 * second + i * second // 10 + 1, i))]
+    clockwise = [("clockwise", 100 * second + i * second // 10, i) for i in range(2)]
     topics = (b'[topics]\njoints = "/joints"\n'
               b'[joints]\nleft = "left"\nright = "right"\nticks_per_turn = 4096\n')
     write("bag/drive.bag", SEPARATOR + bag(drive, b"none"))
@@ -268,6 +274,8 @@ def bags():
         write(f"bag_framing/scans-{name}.bag", bag(scans, compression))
     write("bag_framing/drive.bag", bag(drive, b"none"))
     write("bag_framing/joints.bag", bag(joints, b"none"))
+    write("bag_framing/clockwise.bag", bag(clockwise, b"none"))
+    write("bag/clockwise.bag", SEPARATOR + bag(clockwise, b"none"))
     text = b"a chunk of a bag, a chunk of a bag"
     for compression in COMPRESS:
         head = compression[:1] + struct.pack(">H", len(text))
@@ -290,10 +298,10 @@ def lcm_logs():
                 ">Qqii", 0x8DC5A028FCA42FF9, board_us, 100 * step, 101 * step) + bytes(24)))
             events.append((now_us + 600, b"MAEBOT_SENSOR_DATA", struct.pack(
                 ">Qq6h", 0xC320824C265E849A, board_us, 10, 20, 16384, 1, 2, 131) + bytes(42)))
-            n = 6
+            n = 40  # of a whole turn
             scan = struct.pack(">Qqi", 0x89DC5B879A5056CF, now_us, n)
-            scan += struct.pack(f">{n}f", *[1 + 0.1 * i for i in range(n)])
-            scan += struct.pack(f">{n}f", *[0.1 * i for i in range(n)])
+            scan += struct.pack(f">{n}f", *[1 + 0.05 * i for i in range(n)])
+            scan += struct.pack(f">{n}f", *[2 * math.pi * i / n for i in range(n)])
             scan += struct.pack(f">{n}q", *[now_us + 1000 * i for i in range(n)])
             scan += struct.pack(f">{n}f", *[0.5] * n)
             events.append((now_us + 6000, b"RPLIDAR_LASER_SCAN", scan))

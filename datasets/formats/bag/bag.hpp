@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "datasets/formats/bag/bag_topics.hpp"
+#include "datasets/formats/bag/rosbag_door.hpp"
 #include "datasets/formats/parsed_log.hpp"
 #include "slam/core/result.hpp"
 
@@ -26,6 +28,9 @@ struct BagOptions {
 // Wheels from joints have ticks and no pose yet (ParsedLog::has_wheel_ticks_only).
 Result<ParsedLog> parse_bag(std::string_view bytes, const std::filesystem::path& path,
                             const BagOptions& options);
+
+// The messages of topics /scan, /odom and /imu; an Error if a stamp does not fit ROS time.
+Result<std::vector<ros1::Message>> ros_messages(const SensorLog& log, const std::string& where);
 
 // Topics /scan, /odom and /imu, LZ4; recorded when they are stamped. An Error if a stamp does not
 // fit ROS time (unsigned 32-bit seconds).

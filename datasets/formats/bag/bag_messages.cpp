@@ -15,6 +15,8 @@ constexpr float kBeyondLimit_m = 1.0F;
 constexpr double kFullTurn_rad = 2 * std::numbers::pi;
 // A wheel that turned farther than this is a corrupted number: 1e9 turns are 1e6 km of most wheels.
 constexpr double kMaxTurns = 1e9;
+// A sweep that takes longer is a corrupted number (as lidar.scan_duration_s).
+constexpr double kMaxSweep_s = 1000;
 
 template <class... T>
 bool are_finite(T... numbers) {
@@ -28,6 +30,12 @@ bool fits_beam_count(const ros1::Scan& scan) {
   const double num_steps =
       (static_cast<double>(scan.angle_max_rad) - scan.angle_min_rad) / scan.angle_increment_rad;
   return num_steps > n - 1.5 && num_steps < n + 0.5;
+}
+
+// From the first beam of the message to its last; negative where the driver counts backwards.
+double sweep_s(const ros1::Scan& scan) {
+  return static_cast<double>(scan.time_increment_s) *
+         (static_cast<double>(scan.ranges_m.size()) - 1);
 }
 
 Result<void> check_geometry(const ros1::Scan& scan, const std::string& where) {
@@ -48,6 +56,16 @@ Result<void> check_geometry(const ros1::Scan& scan, const std::string& where) {
     return fail(ErrorCode::kInvalid, fmt::format("{} ranges", scan.ranges_m.size()), where,
                 fmt::format("beams from {} rad to {} rad in steps of {} rad", scan.angle_min_rad,
                             scan.angle_max_rad, scan.angle_increment_rad));
+  }
+  if (exceeds_full_turn(scan.ranges_m.size(), scan.angle_increment_rad)) {
+    return fail(
+        ErrorCode::kInvalid,
+        fmt::format("{} beams in steps of {} rad", scan.ranges_m.size(), scan.angle_increment_rad),
+        where, "a fan of at most 2 pi (degrees for radians?)");
+  }
+  if (!(std::abs(sweep_s(scan)) <= kMaxSweep_s)) {
+    return fail(ErrorCode::kInvalid, fmt::format("a sweep of {} s", sweep_s(scan)), where,
+                fmt::format("at most {} s", kMaxSweep_s));
   }
   return {};
 }
@@ -74,6 +92,7 @@ BagMessageReader::Taken BagMessageReader::take_scan(const ros1::Scan& scan, Time
   if (auto good = check_geometry(scan, where); !good) return tl::make_unexpected(good.error());
   LaserScan taken;
   taken.stamp = stamp;
+  taken.duration_s = sweep_s(scan);
   taken.range_max_m = scan.range_max_m;
   const bool is_clockwise = scan.angle_increment_rad < 0;
   const auto num_steps = static_cast<double>(scan.ranges_m.size() - 1);
@@ -85,6 +104,9 @@ BagMessageReader::Taken BagMessageReader::take_scan(const ros1::Scan& scan, Time
   if (is_clockwise) {
     std::reverse(taken.ranges_m.begin(), taken.ranges_m.end());
     std::reverse(taken.is_valid.begin(), taken.is_valid.end());
+    // The message's last beam is beam 0 now, and its moment the scan's stamp.
+    taken.stamp = add_seconds(stamp, taken.duration_s);
+    taken.duration_s = -taken.duration_s;
     ++log_.counts["clockwise scans put into counter-clockwise order"];
   }
   keep_limits(scan);
@@ -116,17 +138,15 @@ Result<void> BagMessageReader::take_beams(const ros1::Scan& scan, const std::str
   return {};
 }
 
-// The first scan's count for the robot model.
+// The first scan's minimum counts for the robot model. Drivers that say nothing of time leave it to
+// the model.
 void BagMessageReader::keep_limits(const ros1::Scan& scan) {
   const double range_min_m = scan.range_min_m;
-  const double duration_s = std::abs(static_cast<double>(scan.time_increment_s)) *
-                            static_cast<double>(scan.ranges_m.size() - 1);
-  if (!log_.range_min_m) {
-    log_.range_min_m = range_min_m;
-    log_.scan_duration_s = duration_s;
-  } else if (*log_.range_min_m != range_min_m || *log_.scan_duration_s != duration_s) {
-    ++log_.counts["scans whose minimum range or duration is not the first scan's, which is used"];
+  if (!log_.range_min_m) log_.range_min_m = range_min_m;
+  if (*log_.range_min_m != range_min_m) {
+    ++log_.counts["scans whose minimum range is not the first scan's, which is used"];
   }
+  if (scan.time_increment_s != 0) log_.scans_state_duration = true;
 }
 
 BagMessageReader::Taken BagMessageReader::take_odometry(const ros1::Odometry& odometry,

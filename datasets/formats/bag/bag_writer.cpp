@@ -58,21 +58,27 @@ struct EventWriter {
 
 }  // namespace
 
-Result<void> write_bag_file(const SensorLog& log, const std::filesystem::path& path) {
+Result<std::vector<ros1::Message>> ros_messages(const SensorLog& log, const std::string& where) {
   std::vector<ros1::Message> messages;
   messages.reserve(log.events.size());
   for (const SensorEvent& event : log.events) {
     const Timestamp stamp = stamp_of(event);
     if (stamp.nanoseconds < 0 || stamp.nanoseconds >= kEndOfRosTime_ns) {
-      return fail(ErrorCode::kUnsupported, "stamp " + format_stamp(stamp), path.string(),
+      return fail(ErrorCode::kUnsupported, "stamp " + format_stamp(stamp), where,
                   "ROS time, 0 to 4294967295.999999999 s");
     }
     messages.push_back(std::visit(EventWriter{}, event));
     // rosbag refuses a time of recording of zero.
     messages.back().record_ns = std::max<std::int64_t>(stamp.nanoseconds, 1);
   }
+  return messages;
+}
+
+Result<void> write_bag_file(const SensorLog& log, const std::filesystem::path& path) {
+  const auto messages = ros_messages(log, path.string());
+  if (!messages) return tl::make_unexpected(messages.error());
   return write_file_atomically(path, [&](const std::filesystem::path& temporary) {
-    return ros1::write_messages(temporary.string(), messages, ros1::Compression::kLz4);
+    return ros1::write_messages(temporary.string(), *messages, ros1::Compression::kLz4);
   });
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "datasets/formats/parsed_log.hpp"
 #include "slam/core/result.hpp"
@@ -42,8 +43,12 @@ struct CarmenOptions {
 Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
                                const CarmenOptions& options);
 
+// The events a CARMEN log holds, in its order: of those of one stamp the wheel samples come first,
+// since a laser line states their pose.
+std::vector<const SensorEvent*> carmen_events(const SensorLog& log);
+
 // Scans as ROBOTLASER1, wheel samples as ODOM. A scan without a wheel sample of its stamp states
-// the pose interpolated between its neighbours.
+// the pose interpolated between its neighbours. The log must have a wheel sample.
 std::string carmen_text(const SensorLog& log);
 
 }  // namespace corridor::formats

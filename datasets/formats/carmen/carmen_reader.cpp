@@ -42,6 +42,10 @@ class LineReader {
     const double x_m = number(name);
     const double y_m = number(name);
     const double theta_rad = number(name);
+    if (!has_failed() && std::abs(theta_rad) > kMaxHeading_rad) {
+      refuse(name, fmt::format("heading {}", theta_rad),
+             fmt::format("at most {:g} rad", kMaxHeading_rad).c_str());
+    }
     return has_failed() ? Pose2() : Pose2(x_m, y_m, theta_rad);
   }
 
@@ -189,6 +193,10 @@ class CarmenParser {
           "number of ranges", fmt::format("{}", num_beams),
           fmt::format("about {:.1f} for this field of view and resolution", num_steps).c_str());
     }
+    if (exceeds_full_turn(num_beams, scan.angle_increment_rad)) {
+      reader.refuse("field of view", fmt::format("{}", field_of_view_rad),
+                    "at most 2 pi (degrees for radians?)");
+    }
     if (!(scan.range_max_m > 0)) {
       reader.refuse("maximum range", fmt::format("{}", scan.range_max_m), "a number > 0");
     }
@@ -233,6 +241,7 @@ class CarmenParser {
 
 Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
                                const CarmenOptions& options) {
+  const auto note = note_on_end(text);
   CarmenParser parser(file, options);
   std::uint64_t line_number = 0;
   while (const auto line = take_line(text)) {
@@ -240,7 +249,9 @@ Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
       return tl::make_unexpected(taken.error());
     }
   }
-  return parser.finish();
+  ParsedLog log = parser.finish();
+  if (note) log.notes.push_back(*note);
+  return log;
 }
 
 }  // namespace corridor::formats

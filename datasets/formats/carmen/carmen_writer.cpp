@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <utility>
 
 #include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/text.hpp"
@@ -20,29 +21,30 @@ std::string stamp_text(Timestamp stamp) {
   return fmt::format("{} {} {}", text, kHost, text);
 }
 
-const WheelSample* wheels_before(const std::vector<SensorEvent>& events, std::size_t index) {
+using Events = std::vector<const SensorEvent*>;
+
+const WheelSample* wheels_before(const Events& events, std::size_t index) {
   while (index-- > 0) {
-    if (const auto* sample = std::get_if<WheelSample>(&events[index])) return sample;
+    if (const auto* sample = std::get_if<WheelSample>(events[index])) return sample;
   }
   return nullptr;
 }
 
-const WheelSample* wheels_after(const std::vector<SensorEvent>& events, std::size_t index) {
+const WheelSample* wheels_after(const Events& events, std::size_t index) {
   for (++index; index < events.size(); ++index) {
-    if (const auto* sample = std::get_if<WheelSample>(&events[index])) return sample;
+    if (const auto* sample = std::get_if<WheelSample>(events[index])) return sample;
   }
   return nullptr;
 }
 
 // The wheels' pose at a scan, on the geodesic between the samples around it; the nearest at the
 // ends.
-Pose2 odometry_at(const std::vector<SensorEvent>& events, std::size_t scan_index) {
-  const Timestamp stamp = stamp_of(events[scan_index]);
+Pose2 odometry_at(const Events& events, std::size_t scan_index) {
+  const Timestamp stamp = stamp_of(*events[scan_index]);
   const WheelSample* before = wheels_before(events, scan_index);
   const WheelSample* after = wheels_after(events, scan_index);
-  if (before != nullptr && before->stamp == stamp) return before->T_odom_base;
-  if (before == nullptr) return after == nullptr ? Pose2() : after->T_odom_base;
-  if (after == nullptr) return before->T_odom_base;
+  if (before == nullptr) return after->T_odom_base;
+  if (after == nullptr || before->stamp == stamp) return before->T_odom_base;
   const double ratio =
       seconds_between(before->stamp, stamp) / seconds_between(before->stamp, after->stamp);
   const Pose2::Tangent step = after->T_odom_base.minus(before->T_odom_base);
@@ -67,12 +69,27 @@ std::string scan_line(const LaserScan& scan, const Pose2& T_odom_base, double ra
 
 }  // namespace
 
+std::vector<const SensorEvent*> carmen_events(const SensorLog& log) {
+  Events events;
+  for (const SensorEvent& event : log.events) {
+    if (!std::holds_alternative<ImuSample>(event)) events.push_back(&event);
+  }
+  std::stable_sort(events.begin(), events.end(), [](const SensorEvent* a, const SensorEvent* b) {
+    const auto key = [](const SensorEvent* event) {
+      return std::pair(stamp_of(*event), std::holds_alternative<LaserScan>(*event));
+    };
+    return key(a) < key(b);
+  });
+  return events;
+}
+
 std::string carmen_text(const SensorLog& log) {
   std::string text = "# CARMEN log; ROBOTLASER1 poses are raw wheel odometry\n";
-  for (std::size_t i = 0; i < log.events.size(); ++i) {
-    if (const auto* scan = std::get_if<LaserScan>(&log.events[i])) {
-      text += scan_line(*scan, odometry_at(log.events, i), log.robot.lidar.range_sigma_m);
-    } else if (const auto* sample = std::get_if<WheelSample>(&log.events[i])) {
+  const Events events = carmen_events(log);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (const auto* scan = std::get_if<LaserScan>(events[i])) {
+      text += scan_line(*scan, odometry_at(events, i), log.robot.lidar.range_sigma_m);
+    } else if (const auto* sample = std::get_if<WheelSample>(events[i])) {
       text += fmt::format("ODOM {} 0 0 0 {}\n", pose_text(sample->T_odom_base),
                           stamp_text(sample->stamp));
     }

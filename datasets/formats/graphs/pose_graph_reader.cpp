@@ -220,7 +220,7 @@ class PoseGraphParser {
 
 Result<PoseGraph> parse_pose_graph(std::string_view text, GraphFormat format,
                                    const std::string& name) {
-  const bool is_cut = !text.empty() && text.back() != '\n';
+  const auto note = note_on_end(text);
   PoseGraphParser parser(format, name);
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {
@@ -229,9 +229,7 @@ Result<PoseGraph> parse_pose_graph(std::string_view text, GraphFormat format,
     }
   }
   auto graph = parser.finish();
-  if (graph && is_cut) {
-    graph->notes.emplace_back("the last line has no end: the file may have been cut short");
-  }
+  if (graph && note) graph->notes.push_back(*note);
   return graph;
 }
 

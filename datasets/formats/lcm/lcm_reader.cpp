@@ -236,18 +236,26 @@ class LcmAssembler {
     const std::int64_t end_us = in_.sweeps.back().message.times_us.back() + kMaxOutside_us;
     Trajectory reference;
     std::size_t num_dropped = 0;
+    std::size_t num_not_finite = 0;
     for (const auto& [pose, utime_us, begin] : in_.poses) {
       const bool is_within = pose.stamp_us >= begin_us && pose.stamp_us <= end_us;
       const Timestamp stamp{pose.stamp_us * kNanosecondsPerMicrosecond};
       const bool is_finite = std::isfinite(pose.x_m + pose.y_m + pose.theta_rad);
+      if (!is_finite) {
+        ++num_not_finite;
+        continue;
+      }
       const bool is_kept =
-          is_within && is_finite &&
+          is_within &&
           reference.append({stamp, Pose2(pose.x_m, pose.y_m, pose.theta_rad), std::nullopt});
       if (!is_kept) ++num_dropped;
     }
     if (num_dropped > 0) {
       out_.counts["reference poses with a stamp outside the log or out of order left out"] =
           num_dropped;
+    }
+    if (num_not_finite > 0) {
+      out_.counts["reference poses that are not finite left out"] = num_not_finite;
     }
     if (!reference.empty()) out_.reference = std::move(reference);
   }

@@ -36,7 +36,8 @@ std::vector<png_byte> pixels_of(const GridMap& map) {
 }  // namespace
 
 Result<void> write_map_png(const GridMap& map, const std::filesystem::path& path) {
-  if (map.empty()) return fail(ErrorCode::kInvalid, "the map has no cells", path.string());
+  if (map.empty())
+    return fail(ErrorCode::kInvalid, "the map has no cells", path.string(), "at least one");
   const std::vector<png_byte> pixels = pixels_of(map);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

@@ -62,29 +62,60 @@ std::optional<double> number_of(const YAML::Node& node) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
+// What is wrong with a description, and in which line.
+struct Wrong {
+  std::string what;
+  int line = 0;  // from 0, as yaml-cpp counts; -1: the key is not there
+};
+
+// A key that may be missing keeps its value; one that is there must be a number from 0 to 1.
+std::optional<Wrong> take_ratio(const YAML::Node& yaml, const char* key, double& value) {
+  const YAML::Node node = yaml[key];
+  if (!node.IsDefined()) return std::nullopt;
+  const auto number = number_of(node);
+  if (!number || *number < 0 || *number > 1) {
+    return Wrong{fmt::format("{}: not a number from 0 to 1", key), node.Mark().line};
+  }
+  value = *number;
+  return std::nullopt;
+}
+
 // Names the first key that is missing or has no sense; nullopt = all is well.
-std::optional<std::string> take_header(const YAML::Node& yaml, MapHeader& header) {
-  if (!yaml.IsMap()) return "not a list of keys";
-  if (!yaml["image"].IsDefined() || !yaml["image"].IsScalar()) return "image: not a file name";
-  header.image = yaml["image"].Scalar();
+std::optional<Wrong> take_header(const YAML::Node& yaml, MapHeader& header) {
+  const auto wrong = [](const YAML::Node& node, const char* what) {
+    return Wrong{what, node.IsDefined() ? node.Mark().line : -1};
+  };
+  if (!yaml.IsMap()) return Wrong{"not a list of keys"};
+  const YAML::Node image = yaml["image"];
+  if (!image.IsDefined() || !image.IsScalar()) return wrong(image, "image: not a file name");
+  header.image = image.Scalar();
   const auto resolution_m = number_of(yaml["resolution"]);
-  if (!resolution_m || *resolution_m <= 0) return "resolution: not a number > 0";
+  if (!resolution_m || *resolution_m <= 0) {
+    return wrong(yaml["resolution"], "resolution: not a number > 0");
+  }
   header.resolution_m = *resolution_m;
   const YAML::Node origin = yaml["origin"];
   if (!origin.IsDefined() || !origin.IsSequence() || origin.size() != header.origin.size()) {
-    return "origin: not [x, y, yaw]";
+    return wrong(origin, "origin: not [x, y, yaw]");
   }
   for (std::size_t i = 0; i < header.origin.size(); ++i) {
     const auto number = number_of(origin[i]);
-    if (!number) return "origin: not three finite numbers";
+    if (!number) return wrong(origin, "origin: not three finite numbers");
     header.origin[i] = *number;
   }
-  if (header.origin[2] != 0) return "origin: a turned map is not supported";
-  header.is_negated = number_of(yaml["negate"]).value_or(0) != 0;
-  header.occupied_threshold = number_of(yaml["occupied_thresh"]).value_or(kOccupiedThreshold);
-  header.free_threshold = number_of(yaml["free_thresh"]).value_or(kFreeThreshold);
-  if (yaml["mode"].IsDefined() && yaml["mode"].Scalar() != "trinary") {
-    return "mode: only trinary is supported";
+  if (header.origin[2] != 0) return wrong(origin, "origin: a turned map is not supported");
+  double negate = 0;
+  if (auto bad = take_ratio(yaml, "negate", negate)) return bad;
+  if (negate != 0 && negate != 1) return wrong(yaml["negate"], "negate: neither 0 nor 1");
+  header.is_negated = negate == 1;
+  if (auto bad = take_ratio(yaml, "occupied_thresh", header.occupied_threshold)) return bad;
+  if (auto bad = take_ratio(yaml, "free_thresh", header.free_threshold)) return bad;
+  if (header.free_threshold > header.occupied_threshold) {
+    return wrong(yaml["free_thresh"], "free_thresh: above occupied_thresh");
+  }
+  const YAML::Node mode = yaml["mode"];
+  if (mode.IsDefined() && (!mode.IsScalar() || mode.Scalar() != "trinary")) {
+    return wrong(mode, "mode: only trinary is supported");
   }
   return std::nullopt;
 }
@@ -93,8 +124,10 @@ Result<MapHeader> parse_header(const std::string& text, const std::string& where
   try {
     MapHeader header;
     const auto wrong = take_header(YAML::Load(text), header);
-    if (wrong) return fail(ErrorCode::kInvalid, *wrong, where, "a map_server description");
-    return header;
+    if (!wrong) return header;
+    return fail(ErrorCode::kInvalid, wrong->what,
+                wrong->line < 0 ? where : fmt::format("{}:{}", where, wrong->line + 1),
+                "a description as map_server's, negate: 0 or 1");
   } catch (const YAML::Exception& error) {
     return fail(ErrorCode::kMalformed, error.msg, fmt::format("{}:{}", where, error.mark.line + 1),
                 "YAML");
@@ -165,7 +198,8 @@ CellClass classify(const GridCell& cell) {
 }
 
 Result<void> write_ros_map(const GridMap& map, const std::filesystem::path& stem) {
-  if (map.empty()) return fail(ErrorCode::kInvalid, "the map has no cells", stem.string());
+  if (map.empty())
+    return fail(ErrorCode::kInvalid, "the map has no cells", stem.string(), "at least one");
   const std::filesystem::path image = stem.string() + ".pgm";
   if (auto written = write_file_atomically(image, pgm_of(map)); !written) return written;
   return write_file_atomically(stem.string() + ".yaml", yaml_of(map, image.filename().string()));

@@ -128,6 +128,10 @@ class RawlogParser {
       if (!std::isfinite(increment.x() + increment.y() + increment.phi())) {
         return failure(ErrorCode::kInvalid, "odometry increment is not finite", "finite numbers");
       }
+      if (std::abs(increment.phi()) > kMaxHeading_rad) {
+        return failure(ErrorCode::kInvalid, fmt::format("odometry turns by {}", increment.phi()),
+                       fmt::format("at most {:g} rad", kMaxHeading_rad));
+      }
       const auto stamp = stamp_of_clock(movement.timestamp);
       if (!stamp) return tl::make_unexpected(stamp.error());
       T_odom_base_ = T_odom_base_ * Pose2(increment.x(), increment.y(), increment.phi());
@@ -142,6 +146,10 @@ class RawlogParser {
     const auto& pose = odometry.odometry;
     if (!std::isfinite(pose.x() + pose.y() + pose.phi())) {
       return failure(ErrorCode::kInvalid, "odometry pose is not finite", "finite numbers");
+    }
+    if (std::abs(pose.phi()) > kMaxHeading_rad) {
+      return failure(ErrorCode::kInvalid, fmt::format("odometry with heading {}", pose.phi()),
+                     fmt::format("at most {:g} rad", kMaxHeading_rad));
     }
     WheelSample sample{*stamp, Pose2(pose.x(), pose.y(), pose.phi()), std::nullopt};
     if (odometry.hasEncodersInfo) {

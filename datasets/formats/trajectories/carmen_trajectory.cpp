@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/text.hpp"
@@ -80,6 +81,7 @@ Result<void> take_pose(Fields fields, const std::string& where, Trajectory& traj
 
 Result<ReadTrajectory> parse_carmen_trajectory(std::string_view text, const std::string& name) {
   ReadTrajectory read;
+  if (auto note = note_on_end(text)) read.notes.push_back(std::move(*note));
   std::map<std::string, std::size_t, std::less<>> num_left_out;
   std::string kind;  // of the lines that give poses: the first kind that comes
   std::size_t line_number = 0;

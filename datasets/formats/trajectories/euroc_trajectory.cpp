@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "datasets/formats/text.hpp"
 #include "datasets/formats/trajectories/trajectory_rules.hpp"
@@ -20,10 +21,10 @@ constexpr const char* kHead =
     "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],"
     "q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
 
-// Fields between commas, blanks around them taken off.
+// Fields between commas, blanks around them taken off; at most kMaxLineFields.
 std::vector<std::string_view> split_at_commas(std::string_view line) {
   std::vector<std::string_view> fields;
-  for (std::size_t begin = 0; begin <= line.size();) {
+  for (std::size_t begin = 0; begin <= line.size() && fields.size() < kMaxLineFields;) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
     std::string_view field = line.substr(begin, end - begin);
     field.remove_prefix(std::min(field.find_first_not_of(kBlanks), field.size()));
@@ -38,6 +39,7 @@ std::vector<std::string_view> split_at_commas(std::string_view line) {
 
 Result<ReadTrajectory> parse_euroc(std::string_view text, const std::string& name) {
   ReadTrajectory read;
+  if (auto note = note_on_end(text)) read.notes.push_back(std::move(*note));
   std::size_t line_number = 0;
   std::size_t num_raised = 0;
   std::size_t num_states = 0;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "datasets/formats/text.hpp"
 #include "datasets/formats/trajectories/trajectory_rules.hpp"
@@ -84,6 +85,9 @@ Result<Timestamp> parse_time(const Line& line) {
 Result<ReadTrajectory> parse_kitti(std::string_view poses, const std::string& name,
                                    std::string_view times, const std::string& times_name) {
   ReadTrajectory read;
+  for (const std::string_view text : {poses, times}) {
+    if (auto note = note_on_end(text)) read.notes.push_back(std::move(*note));
+  }
   std::size_t pose_line = 0;
   std::size_t time_line = 0;
   std::size_t num_raised = 0;

@@ -4,16 +4,41 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/text.hpp"
+#include "slam/core/sensor_log.hpp"
 
 namespace corridor::formats {
 namespace {
 
 constexpr std::size_t kNumFields = 8;
 constexpr const char* kLayout = "'t1 t2 dx dy dz droll dpitch dyaw'";
+
+// Whole turns are written by some, more is degrees for radians.
+constexpr double kMaxTurn_rad = 2 * std::numbers::pi + 1e-3;
+
+Result<void> check_motion(const Relation& relation, double dyaw_rad, const std::string& where) {
+  const double time_s = std::abs(seconds_between(relation.t1, relation.t2));
+  if (relation.t1 == relation.t2) {
+    return fail(ErrorCode::kInvalid, "t1 and t2 are the same time", where, "two times of the log");
+  }
+  if (std::abs(dyaw_rad) > kMaxTurn_rad) {
+    return fail(ErrorCode::kInvalid, fmt::format("a turn of {} rad", dyaw_rad), where,
+                "at most 2 pi (degrees for radians?)");
+  }
+  const LogLimits limits;
+  const double length_m = relation.T_1_2.translation_m().norm();
+  if (length_m <= limits.max_speed_mps * time_s + limits.max_jump_m) return {};
+  return fail(ErrorCode::kInvalid,
+              fmt::format("a motion of {:.6g} m in {:.6g} s", length_m, time_s), where,
+              fmt::format("at most {} m/s (centimetres for metres?)", limits.max_speed_mps));
+}
 
 Result<Relation> parse_relation(std::string_view line, const std::string& where) {
   const auto fields = split_fields(line);
@@ -40,8 +65,16 @@ Result<Relation> parse_relation(std::string_view line, const std::string& where)
     return fail(ErrorCode::kUnsupported, "a relation out of the plane", where,
                 "dz = droll = dpitch = 0");
   }
-  return Relation{*t1, *t2, Pose2(dx_m, dy_m, dyaw_rad)};
+  const Relation relation{*t1, *t2, Pose2(dx_m, dy_m, dyaw_rad)};
+  if (auto possible = check_motion(relation, dyaw_rad, where); !possible) {
+    return tl::make_unexpected(possible.error());
+  }
+  return relation;
 }
+
+using Times = std::pair<Timestamp, Timestamp>;
+
+Times times_of(const Relation& relation) { return {relation.t1, relation.t2}; }
 
 }  // namespace
 
@@ -49,6 +82,7 @@ Result<std::vector<Relation>> read_relations(const std::filesystem::path& path) 
   const auto bytes = read_file_bytes(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
   std::vector<Relation> relations;
+  std::map<Times, Relation> known;
   std::string_view text = *bytes;
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {
@@ -56,15 +90,32 @@ Result<std::vector<Relation>> read_relations(const std::filesystem::path& path) 
     std::string_view rest = *line;
     const std::string_view first = take_field(rest);
     if (first.empty() || first.front() == '#') continue;
-    auto relation = parse_relation(*line, fmt::format("{}:{}", path.string(), line_number));
+    const std::string where = fmt::format("{}:{}", path.string(), line_number);
+    auto relation = parse_relation(*line, where);
     if (!relation) return tl::make_unexpected(relation.error());
+    const auto [same_times, is_new] = known.try_emplace(times_of(*relation), *relation);
+    if (!is_new && same_times->second != *relation) {
+      return fail(ErrorCode::kInvalid, "another relation between these two times stands before",
+                  where, "one, or the same again");
+    }
     relations.push_back(*relation);
+  }
+  if (note_on_end(*bytes)) {
+    return fail(ErrorCode::kMalformed, "the last line has no end",
+                fmt::format("{}:{}", path.string(), line_number),
+                "a line's end: without it the last number may be cut");
   }
   if (relations.empty()) {
     return fail(ErrorCode::kMalformed, "no relation in the file", path.string(),
                 fmt::format("lines of {}", kLayout));
   }
   return relations;
+}
+
+std::size_t num_repeated(const std::vector<Relation>& relations) {
+  std::set<Times> known;
+  for (const Relation& relation : relations) known.insert(times_of(relation));
+  return relations.size() - known.size();
 }
 
 Result<void> write_relations(const std::vector<Relation>& relations,

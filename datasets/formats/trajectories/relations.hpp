@@ -3,6 +3,7 @@
 // It does not know whether the log has those times.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace corridor::formats {
 
-// Published files hold some with t2 before t1; they are kept as they are.
+// Published files hold some with t2 before t1, and some twice; they are kept as they are.
 struct Relation {
   Timestamp t1;
   Timestamp t2;
@@ -22,8 +23,13 @@ struct Relation {
 };
 
 // An Error with file:line for a wrong field count, number syntax, a non-finite value, dz, droll or
-// dpitch other than zero, and for a file without any relation.
+// dpitch other than zero, t1 = t2, a turn of more than 2 pi (degrees), a motion faster than
+// LogLimits allow (another unit), two relations between the same times that differ, a last line
+// without its end (its last number may be cut), and for a file without any relation.
 Result<std::vector<Relation>> read_relations(const std::filesystem::path& path);
+
+// Those that stand before already.
+std::size_t num_repeated(const std::vector<Relation>& relations);
 
 Result<void> write_relations(const std::vector<Relation>& relations,
                              const std::filesystem::path& path);

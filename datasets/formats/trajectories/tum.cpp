@@ -49,6 +49,7 @@ Result<SpatialPose> parse_pose(std::string_view line, const std::string& where) 
 
 Result<ReadTrajectory> parse_tum_trajectory(std::string_view text, const std::string& name) {
   ReadTrajectory read;
+  if (auto note = note_on_end(text)) read.notes.push_back(std::move(*note));
   std::size_t num_raised = 0;
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {

@@ -75,6 +75,74 @@ TEST(Convert, TakesALogToARosBagAndBack) {
   EXPECT_EQ(counts(back.out), counts(there.out));
 }
 
+// A laser line of 4 beams, one of them without return, taken `stamp` s after the begin.
+std::string laser_line(const std::string& stamp) {
+  return "ROBOTLASER1 0 -0.75 1.5 0.5 4.5 0.01 0 4 1.5 2 0 2.5 0 0 0 0 0 0 0 0 0 0 0 0 " + stamp +
+         " h " + stamp + "\n";
+}
+
+std::string wheel_line(const std::string& stamp) {
+  return "ODOM 0 0 0 0 0 0 " + stamp + " h " + stamp + "\n";
+}
+
+TEST(Convert, SaysWhatTheReaderDidToTheReadings) {
+  const ScratchFolder folder;
+  folder.write("a.clf", "PARAM x 1\n" + wheel_line("0.05") + laser_line("0.1"));
+  const Answer answer = run_program(folder, "convert a.clf b.rawlog");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  for (const char* part : {"note: 1 PARAM lines skipped", "note: 1 beams of range 0 taken as no"}) {
+    EXPECT_NE(answer.out.find(part), std::string::npos) << part << " in " << answer.out;
+  }
+}
+
+TEST(Convert, SaysWhatLooksWrongWithTheReadings) {
+  const ScratchFolder folder;
+  std::string text;
+  for (int second = 0; second < 4; ++second) text += laser_line(std::to_string(10 * second));
+  folder.write("a.clf", text);
+  const Answer answer = run_program(folder, "convert a.clf b.rawlog");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("suspicious: LiDAR: 10.000 s between readings; milliseconds"),
+            std::string::npos)
+      << answer.out;
+}
+
+TEST(Convert, RefusesWhatTheReaderOfTheCopyWouldRefuse) {
+  const ScratchFolder folder;
+  folder.write("a.clf", wheel_line("0.04") + wheel_line("0.04000001") + laser_line("0.1"));
+  expect_refused(folder, "convert a.clf b.rawlog",
+                 {"b.rawlog: byte ", "the format cannot hold this log", "stamp repeats"});
+}
+
+TEST(Convert, RefusesDegreesForRadians) {
+  const ScratchFolder folder;
+  std::string degrees = laser_line("0.1");
+  degrees.replace(degrees.find("-0.75 1.5 0.5"), 13, "-45 90 30");
+  folder.write("a.clf", degrees);
+  expect_refused(folder, "convert a.clf b.rawlog", {"a.clf:1: field of view", "degrees"});
+}
+
+TEST(Convert, InventsNoOdometry) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  ASSERT_EQ(run_program(folder, "convert a.rawlog b.bag --quiet").exit_code, 0);
+  folder.write("b.topics.toml", "[topics]\nodometry = \"\"\n");
+  expect_refused(folder, "convert b.bag c.clf", {"c.clf: the log has no wheel sample; expected"});
+}
+
+TEST(Convert, SaysOnlyWhatIsLostOfThisVeryLog) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  const Answer same = run_program(folder, "convert a.rawlog b.rawlog");
+  EXPECT_NE(same.out.find("nothing lost"), std::string::npos) << same.out;
+  EXPECT_TRUE(text_of(folder / "a.rawlog") == text_of(folder / "b.rawlog"));
+  const Answer text = run_program(folder, "convert a.rawlog c.clf");
+  EXPECT_NE(text.out.find("lost: the robot model"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("inertial samples"), std::string::npos) << text.out;
+  const Answer again = run_program(folder, "convert c.clf d.clf");
+  EXPECT_NE(again.out.find("nothing lost"), std::string::npos) << again.out;
+}
+
 TEST(Convert, RefusesABrokenBagAndAStrangersTopics) {
   const ScratchFolder folder;
   ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);

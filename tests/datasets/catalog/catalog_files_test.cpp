@@ -1,6 +1,9 @@
 // The files of a data set: how the catalogue states them, what counts as the right one, graphs.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <set>
+
 #include "datasets/catalog/load_dataset.hpp"
 #include "datasets/catalog/sha256.hpp"
 #include "datasets/formats/file_bytes.hpp"
@@ -154,6 +157,60 @@ TEST(LoadGraph, ByNameAndByPathAndNoLog) {
   data.folder.write("data/tiny.g2o", std::string(kGraph) + "\n");
   EXPECT_NE(load_graph("graph", data.dirs, catalog).error().to_line().find("SHA-256"),
             std::string::npos);
+}
+
+TEST(Catalog, CompanionsHaveAChecksumAndAReasonAndAreVerifiedWhereTheyAre) {
+  const TinyData data;
+  const std::string sum = std::string("sha256 = \"") + kScansSha256 + "\"";
+  const auto read = [&](const std::string& more) {
+    return read_catalog(data.folder.write("other.toml", entry_text(more)));
+  };
+  const std::string list = "companions = [ { path = \"sub/other.txt\", " + sum + " } ]\n";
+  const std::string reason = "companions_not_fetchable = \"made here\"\n";
+  for (const std::string& wrong : {list, reason, "companions = []\n" + reason}) {
+    const auto refused = read(wrong);
+    ASSERT_FALSE(refused.has_value()) << wrong;
+    EXPECT_NE(refused.error().to_line().find("companions"), std::string::npos);
+  }
+  const auto catalog = read(list + reason);
+  ASSERT_TRUE(catalog.has_value()) << catalog.error().to_line();
+  EXPECT_EQ(verify_dataset(*catalog, "tiny", data.dirs)->size(), 2U) << "not there, not asked for";
+  data.folder.write("data/sub/other.txt", kScans);
+  const auto there = verify_dataset(*catalog, "tiny", data.dirs);
+  ASSERT_EQ(there->size(), 3U);
+  EXPECT_EQ(there->back().status, FileStatus::kMatches);
+  data.folder.write("data/sub/other.txt", "changed");
+  EXPECT_EQ(verify_dataset(*catalog, "tiny", data.dirs)->back().status, FileStatus::kDiffers);
+  EXPECT_TRUE(load_dataset("tiny", data.dirs, *catalog).has_value()) << "it is not read";
+}
+
+// In folders that the catalogue names: others are the user's own.
+TEST(Catalog, KnowsEveryFileOfTheDataFoldersItNames) {
+  const auto catalog =
+      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
+  ASSERT_TRUE(catalog.has_value()) << catalog.error().to_line();
+  std::set<std::filesystem::path> known;
+  std::set<std::filesystem::path> folders;
+  for (const CatalogEntry& entry : catalog->entries) {
+    for (const auto& files : {entry.files, entry.companions}) {
+      for (const DataFile& file : files) {
+        known.insert(file.path);
+        if (file.path.has_parent_path()) folders.insert(file.path.parent_path());
+      }
+    }
+  }
+  std::size_t num_found = 0;
+  for (const auto& data_dir : standard_data_dirs().folders) {
+    for (const auto& folder : folders) {
+      std::error_code none;
+      for (const auto& file : std::filesystem::directory_iterator(data_dir / folder, none)) {
+        if (!file.is_regular_file()) continue;
+        EXPECT_TRUE(known.contains(folder / file.path().filename())) << file.path();
+        ++num_found;
+      }
+    }
+  }
+  if (num_found == 0) GTEST_SKIP() << "no data found; set $CORRIDOR_BENCH_DATA to their folder";
 }
 
 TEST(Catalog, EveryFileThatIsFoundHasItsChecksum) {

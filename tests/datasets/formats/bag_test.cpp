@@ -188,24 +188,6 @@ TEST(Bag, RangesOutsideTheLimitsAreCountedAsNoReturn) {
   }
 }
 
-TEST(Bag, AClockwiseScanIsTurnedRound) {
-  auto messages = small_bag();
-  for (ros1::Message& message : messages) {
-    auto* scan = std::get_if<ros1::Scan>(&message.content);
-    if (scan == nullptr) continue;
-    std::swap(scan->angle_min_rad, scan->angle_max_rad);
-    scan->angle_increment_rad = -0.25F;
-    std::reverse(scan->ranges_m.begin(), scan->ranges_m.end());
-  }
-  const ScratchFolder folder;
-  write_bag(folder / "clockwise.bag", messages);
-  write_bag(folder / "a.bag", small_bag());
-  const auto read = read_log(folder / "clockwise.bag");
-  ASSERT_TRUE(read.has_value()) << read.error().to_line();
-  EXPECT_TRUE(test::same_events(*read, *read_log(folder / "a.bag")));
-  EXPECT_NE(notes_of(*read).find("5 clockwise scans"), std::string::npos);
-}
-
 TEST(Bag, OfSeveralTopicsTheSidecarNamesOne) {
   auto messages = small_bag();
   ros1::Message rear = scan_message(kBegin_ns);
@@ -279,8 +261,9 @@ TEST(Bag, TheFramingListsEveryMessageWithItsByte) {
 TEST(Bag, SaysWhatItCannotHold) {
   const SensorLog log = test::small_log();
   const auto losses = losses_of_conversion(log, LogFormat::kRosbag);
-  ASSERT_EQ(losses.size(), 3U);
+  ASSERT_EQ(losses.size(), 2U);  // its angles are exact in 32-bit floats
   EXPECT_NE(losses[0].find("ticks"), std::string::npos);
+  EXPECT_NE(losses[1].find("robot model"), std::string::npos);
   SensorLog early = log;
   std::get<ImuSample>(early.events.front()).stamp.nanoseconds = -1;
   const ScratchFolder folder;

@@ -68,12 +68,12 @@ LcmLog& LcmLog::add(std::int64_t utime_us, const std::string& channel, const std
   return *this;
 }
 
-LcmLog small_lcm_log(std::int64_t board_ahead_us) {
+LcmLog small_lcm_log(std::int64_t board_ahead_us, std::int64_t jump_us) {
   constexpr std::int64_t kDelay_us = 500;
   constexpr std::int64_t kSweep_us = 39'000;  // of 40 beams, 1 ms each
   LcmLog log;
   for (int i = 0; i < 20; ++i) {
-    const std::int64_t now_us = 100'000'000 + 50'000LL * i;
+    const std::int64_t now_us = 100'000'000 + 50'000LL * i + (i < 10 ? 0 : jump_us);
     log.add(now_us + kDelay_us, "MAEBOT_MOTOR_FEEDBACK",
             ticks_message(now_us + board_ahead_us, 100 * i, 100 * i));
     log.add(now_us + kDelay_us, "MAEBOT_SENSOR_DATA",

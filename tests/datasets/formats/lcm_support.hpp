@@ -46,6 +46,7 @@ class LcmLog {
 // One second of a robot that drives ahead: 10 scans, 20 readings of wheels and IMU with the stamps
 // of their own clock, `board_ahead_us` later than the LiDAR's; received 500 us after they were
 // taken.
-LcmLog small_lcm_log(std::int64_t board_ahead_us = 0);
+// From the 11th reading on all clocks are `jump_us` later.
+LcmLog small_lcm_log(std::int64_t board_ahead_us = 0, std::int64_t jump_us = 0);
 
 }  // namespace corridor::formats::test

@@ -243,6 +243,40 @@ TEST(LogHealth, SuspectsATruthOfAnotherClock) {
   expect_suspicion(log, "no scan has a true pose within 10 ms");
 }
 
+TEST(LogHealth, SuspectsAClockThatJumps) {
+  SensorLog log = sound_log();
+  const auto num_events = log.events.size();
+  for (std::size_t i = num_events / 2; i < num_events; ++i) {
+    std::visit([](auto& reading) { reading.stamp = add_seconds(reading.stamp, 5); }, log.events[i]);
+  }
+  EXPECT_TRUE(examine(log).defects.empty());
+  for (const char* sensor : {"LiDAR", "wheels", "IMU"}) {
+    expect_suspicion(log, std::string(sensor) + ": no reading for 5.");
+  }
+  expect_suspicion(log, "a clock that jumps, or a break in the recording?");
+}
+
+// Codes for "no return" that the stated limit lets pass.
+TEST(LogHealth, SuspectsOneFarRangeThatManyBeamsShare) {
+  SensorLog log = sound_log();
+  change_each<LaserScan>(log, [](LaserScan& scan) {
+    scan.range_max_m = 81;
+    scan.ranges_m[0] = scan.ranges_m[scan.num_beams() / 2] = 50;
+    scan.is_valid[0] = scan.is_valid[scan.num_beams() / 2] = 1;
+  });
+  expect_suspicion(log, "at exactly 50.000 m; a code for no return, below the limit of 81.000 m?");
+}
+
+TEST(LogHealth, SuspectsWheelsFasterThanRobotsIndoors) {
+  SensorLog log = sound_log();
+  change_each<WheelSample>(log, [](WheelSample& sample) {
+    const Pose2& pose = sample.T_odom_base;
+    sample.T_odom_base = Pose2(4 * pose.x_m(), 4 * pose.y_m(), pose.theta_rad());
+  });
+  EXPECT_TRUE(examine(log).defects.empty()) << all_lines(examine(log).defects);
+  expect_suspicion(log, "centimetres or millimetres for metres, a jump");
+}
+
 TEST(LogHealth, OfDegenerateLogsIsAReportToo) {
   EXPECT_FALSE(examine(SensorLog{}).defects.empty());
   SensorLog one;

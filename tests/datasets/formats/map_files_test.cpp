@@ -88,6 +88,29 @@ TEST(RosMap, BadDescriptionsAndImagesAreErrors) {
   }
 }
 
+TEST(RosMap, NamesTheLineOfAValueThatIsNone) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_ros_map(small_map(), folder / "map"));
+  const std::vector<std::pair<std::string, std::string>> defects = {
+      {"negate: true", "map.yaml:4: negate: not a number from 0 to 1"},
+      {"negate: 0.5", "map.yaml:4: negate: neither 0 nor 1"},
+      {"negate:", "negate: not a number"},
+      {"occupied_thresh: zzz", "map.yaml:4: occupied_thresh: not a number from 0 to 1"},
+      {"occupied_thresh: 65", "map.yaml:4: occupied_thresh: not a number from 0 to 1"},
+      {"free_thresh: 0,196", "map.yaml:4: free_thresh: not a number from 0 to 1"},
+      {"free_thresh: 0.9", "map.yaml:4: free_thresh: above occupied_thresh"},
+      {"mode: scale", "map.yaml:4: mode: only trinary"},
+      {"mode: [trinary]", "map.yaml:4: mode: only trinary"},
+  };
+  for (const auto& [line, message] : defects) {
+    write_text(folder / "map.yaml",
+               "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n" + line + "\n");
+    const auto read = read_ros_map(folder / "map.yaml");
+    ASSERT_FALSE(read.has_value()) << line;
+    EXPECT_NE(read.error().to_line().find(message), std::string::npos) << read.error().to_line();
+  }
+}
+
 TEST(RosMap, ReadsCommentsInTheImageAndNegatedMaps) {
   const ScratchFolder folder;
   write_text(folder / "map.pgm",

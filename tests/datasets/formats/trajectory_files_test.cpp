@@ -112,6 +112,47 @@ TEST(Relations, AnswersEachDefectWithItsLine) {
   }
 }
 
+TEST(Relations, RefusesWhatNoRobotDoes) {
+  const std::vector<std::pair<std::string, std::string>> defects = {
+      {"5 5 0.1 0 0 0 0 0", "t1 and t2 are the same time; expected two times"},
+      {"5 6 0.1 0 0 0 0 1e300", "a turn of 1e+300 rad; expected at most 2 pi"},
+      {"5 6 0.1 0 0 0 0 -90", "a turn of -90 rad; expected at most 2 pi (degrees"},
+      {"5 6 48.5 0 0 0 0 0", "a motion of 48.5 m in 1 s; expected at most 10 m/s (centimetres"},
+      {"5 6 1e300 0 0 0 0 0", "a motion of"},
+      {"1 2 0.2 0 0 0 0 0", "another relation between these two times"},
+      {"5000000000 6 0.1 0 0 0 0 0", "stamp '5000000000'"},
+      {"5 6 0,1 0 0 0 0 0", "field '0,1'"},
+  };
+  const ScratchFolder folder;
+  for (const auto& [line, message] : defects) {
+    write_text(folder / "a.relations", "1 2 0.1 0 0 0 0 0\n" + line + "\n");
+    const auto read = read_relations(folder / "a.relations");
+    ASSERT_FALSE(read.has_value()) << line;
+    EXPECT_NE(read.error().to_line().find("a.relations:2: "), std::string::npos);
+    EXPECT_NE(read.error().to_line().find(message), std::string::npos) << read.error().to_line();
+  }
+}
+
+TEST(Relations, KeepsThoseInAnyOrderAndThoseGivenTwice) {
+  const ScratchFolder folder;
+  write_text(folder / "a.relations",
+             "7 8 0.5 0 0 0 0 0.25\n1 2 0.1 0 0 0 0 0\n7 8 0.5 0 0 0 0 0.25\n2 1 -0.1 0 0 0 0 0\n");
+  const auto read = read_relations(folder / "a.relations");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->size(), 4U);
+  EXPECT_EQ(num_repeated(*read), 1U);
+}
+
+TEST(Relations, RefusesALastNumberThatMayBeCut) {
+  const ScratchFolder folder;
+  write_text(folder / "a.relations", "1 2 0.1 0 0 0 0 0\n3 4 0.1 0 0 0 0 0.12");
+  const auto read = read_relations(folder / "a.relations");
+  ASSERT_FALSE(read.has_value());
+  EXPECT_NE(read.error().to_line().find("a.relations:2: the last line has no end"),
+            std::string::npos)
+      << read.error().to_line();
+}
+
 TEST(Relations, AFileWithoutAnyIsAnError) {
   const ScratchFolder folder;
   write_text(folder / "a.relations", "# none\n");

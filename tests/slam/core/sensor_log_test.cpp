@@ -138,10 +138,10 @@ TEST(Defects, BeamCountThatChanges) {
 TEST(Defects, ScanGeometryThatIsNotFinite) {
   SensorLog log = sound_log();
   scan_in(log, 2).angle_increment_rad = NAN;
-  EXPECT_TRUE(starts_with(only_defect(log), "event 2: scan geometry is not finite"));
+  EXPECT_TRUE(starts_with(only_defect(log), "event 2: scan geometry or duration is not finite"));
   log = sound_log();
   scan_in(log, 2).T_base_lidar = Pose2(NAN, 0, 0);
-  EXPECT_TRUE(starts_with(only_defect(log), "event 2: scan geometry is not finite"));
+  EXPECT_TRUE(starts_with(only_defect(log), "event 2: scan geometry or duration is not finite"));
 }
 
 TEST(Defects, ValidRangeThatNoSensorGives) {
@@ -182,6 +182,66 @@ TEST(Defects, YawRateTooFastForItsUnit) {
   SensorLog log = sound_log();
   std::get<ImuSample>(log.events[4]).gyro_z_radps = -45;  // degrees per second
   EXPECT_TRUE(starts_with(only_defect(log), "event 4: yaw rate -45.000 rad/s"));
+}
+
+// Scans every second from 1 s to 30 s, with `num` wheel samples at the first seconds.
+SensorLog log_with_wheels_until(int num) {
+  SensorLog log;
+  for (int second = 1; second <= 30; ++second) {
+    if (second <= num) log.events.emplace_back(wheels_at(second, Pose2()));
+    log.events.emplace_back(scan_at(second));
+  }
+  return log;
+}
+
+TEST(Defects, SensorThatEndsLongBeforeTheLog) {
+  EXPECT_TRUE(defects(log_with_wheels_until(20)).empty());
+  EXPECT_EQ(only_defect(log_with_wheels_until(2)),
+            "event 2: the last wheel sample comes 28.000 s before the log's end; expected at most "
+            "10 s");
+}
+
+TEST(Defects, SensorThatBeginsLongAfterTheLog) {
+  SensorLog log = log_with_wheels_until(0);
+  log.events.emplace_back(imu_at(30));
+  EXPECT_EQ(only_defect(log),
+            "event 30: the first IMU sample comes 29.000 s after the log's first reading; expected "
+            "at most 10 s");
+}
+
+// Wheels at 50 Hz that drive ahead and turn at the same rates for 2 s.
+SensorLog fast_wheels(double speed_mps, double yaw_rate_radps) {
+  SensorLog log;
+  for (int i = 1; i <= 100; ++i) {
+    const double time_s = 0.02 * i;
+    log.events.emplace_back(
+        wheels_at(time_s, Pose2(speed_mps * time_s, 0, yaw_rate_radps * time_s)));
+  }
+  log.events.emplace_back(scan_at(2));
+  return log;
+}
+
+// Steps of 0.4 m hide below the half metre that one step may jump.
+TEST(Defects, OdometryInCentimetresAtAHighRate) {
+  EXPECT_TRUE(defects(fast_wheels(2, 0)).empty());
+  const auto lines = defects(fast_wheels(20, 0));
+  ASSERT_FALSE(lines.empty());
+  EXPECT_TRUE(starts_with(lines.front(), "event 11: odometry moves 4.400 m in 0.2200 s; expected"));
+}
+
+TEST(Defects, OdometryInDegrees) {
+  EXPECT_TRUE(defects(fast_wheels(0, 4)).empty());
+  const auto lines = defects(fast_wheels(0, 0.5 * 57.29578));
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.front().find("odometry turns"), std::string::npos);
+  EXPECT_NE(lines.front().find("expected at most 20 rad/s (degrees?)"), std::string::npos);
+}
+
+TEST(Defects, AccelerationOfNoRobot) {
+  SensorLog log = sound_log();
+  std::get<ImuSample>(log.events[4]).accel_y_mps2 = -1e9;
+  EXPECT_EQ(only_defect(log),
+            "event 4: acceleration 1000000000.000 m/s2; expected at most 200 (raw counts?)");
 }
 
 TEST(Defects, AreAllListedUpToTheLimitOfLines) {

@@ -1,0 +1,380 @@
+// One defect, every format that can have it: text with bytes changed or cut off, endless lines,
+// other units, stamps of few digits, clocks that jump, a locale with a decimal comma.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <clocale>
+#include <functional>
+#include <locale>
+#include <map>
+
+#include "datasets/formats/graphs/pose_graph_file.hpp"
+#include "datasets/formats/log_health.hpp"
+#include "datasets/formats/log_io.hpp"
+#include "datasets/formats/maps/ros_map.hpp"
+#include "datasets/formats/robot_toml.hpp"
+#include "datasets/formats/trajectories/relations.hpp"
+#include "datasets/formats/trajectories/trajectory_io.hpp"
+#include "tests/datasets/formats/golden_support.hpp"
+#include "tests/datasets/formats/lcm_support.hpp"
+
+namespace corridor::formats {
+namespace {
+
+using test::golden_file;
+using test::golden_parts;
+using test::read_text;
+using test::ScratchFolder;
+using test::write_text;
+
+// What a reader made of a text.
+struct Outcome {
+  bool is_read = false;
+  std::size_t num_readings = 0;
+  std::string said;  // the Error, or the notes
+};
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+// A text format with a file of known content, and a way to read any text as one.
+struct TextFormat {
+  std::string name;
+  std::string text;
+  std::function<Outcome(const std::string& text)> read;
+};
+
+template <class T, class Count, class Notes>
+Outcome outcome_of(const Result<T>& read, Count count, Notes notes) {
+  if (!read) return {false, 0, read.error().to_line()};
+  return {true, count(*read), joined(notes(*read))};
+}
+
+Outcome read_as_log(const std::filesystem::path& path) {
+  return outcome_of(
+      read_log(path), [](const SensorLog& log) { return log.events.size(); },
+      [](const SensorLog& log) { return log.provenance.notes; });
+}
+
+// The same wherever the file lay.
+Outcome without_folder(Outcome outcome, const ScratchFolder& folder) {
+  const std::string path = folder.path().string();
+  for (std::size_t at = outcome.said.find(path); at != std::string::npos;
+       at = outcome.said.find(path)) {
+    outcome.said.erase(at, path.size());
+  }
+  return outcome;
+}
+
+TextFormat log_format(const std::string& name, const std::string& file, const std::string& text,
+                      const std::string& robot_toml = "") {
+  return {name, text, [=](const std::string& bytes) {
+            const ScratchFolder folder;
+            write_text(folder / file, bytes);
+            if (!robot_toml.empty()) write_text(folder / "a.robot.toml", robot_toml);
+            return without_folder(read_as_log(folder / file), folder);
+          }};
+}
+
+TextFormat trajectory_format(const std::string& name, const std::string& file,
+                             const std::string& text, const std::string& times = "") {
+  return {name, text, [=](const std::string& bytes) {
+            const ScratchFolder folder;
+            write_text(folder / file, bytes);
+            if (!times.empty()) write_text(folder / "a.times", times);
+            return outcome_of(
+                read_trajectory(folder / file),
+                [](const ReadTrajectory& read) { return read.trajectory.size(); },
+                [](const ReadTrajectory& read) { return read.notes; });
+          }};
+}
+
+TextFormat graph_format(const std::string& name, const std::string& file) {
+  return {name, read_text(golden_file("pose_graph/" + file)), [=](const std::string& bytes) {
+            const ScratchFolder folder;
+            write_text(folder / file, bytes);
+            return outcome_of(
+                read_pose_graph(folder / file),
+                [](const PoseGraph& graph) { return graph.vertices.size() + graph.edges.size(); },
+                [](const PoseGraph& graph) { return graph.notes; });
+          }};
+}
+
+TextFormat relations_format() {
+  return {"relations", read_text(golden_file("relations/two.relations")),
+          [](const std::string& bytes) {
+            const ScratchFolder folder;
+            write_text(folder / "a.relations", bytes);
+            return outcome_of(
+                read_relations(folder / "a.relations"),
+                [](const std::vector<Relation>& relations) { return relations.size(); },
+                [](const std::vector<Relation>&) { return std::vector<std::string>{}; });
+          }};
+}
+
+TextFormat map_format() {
+  const auto [yaml, image] = golden_parts("ros_map/small.yaml");
+  const std::string pixels = image;
+  return {"ros_map", yaml + "\n", [pixels](const std::string& bytes) {
+            const ScratchFolder folder;
+            write_text(folder / "a.yaml", bytes);
+            write_text(folder / "101", pixels);
+            return outcome_of(
+                read_ros_map(folder / "a.yaml"),
+                [](const GridMap& map) {
+                  return static_cast<std::size_t>(map.num_columns() * map.num_rows());
+                },
+                [](const GridMap&) { return std::vector<std::string>{}; });
+          }};
+}
+
+std::vector<TextFormat> text_formats() {
+  const auto [ticks_robot, ticks] = golden_parts("ticks/two-rows.dat");
+  const auto [kitti, times] = golden_parts("kitti/five.kitti");
+  return {
+      log_format("flaser", "a.clf", read_text(golden_file("carmen/flaser.clf"))),
+      log_format("robotlaser", "a.clf", read_text(golden_file("carmen/robotlaser.clf"))),
+      log_format("ticks", "a.dat", ticks, ticks_robot),
+      trajectory_format("tum", "a.tum", read_text(golden_file("tum/five.tum"))),
+      trajectory_format("kitti", "a.kitti", kitti + "\n", times),
+      trajectory_format("euroc", "a.csv", read_text(golden_file("euroc/ground-truth.csv"))),
+      trajectory_format("carmen_trajectory", "a.clf",
+                        read_text(golden_file("carmen_trajectory/flaser.clf"))),
+      graph_format("g2o", "square.g2o"),
+      graph_format("toro", "square.graph"),
+      relations_format(),
+      map_format(),
+  };
+}
+
+class EveryTextFormat : public ::testing::TestWithParam<TextFormat> {};
+
+INSTANTIATE_TEST_SUITE_P(FormatDefects, EveryTextFormat, ::testing::ValuesIn(text_formats()),
+                         [](const auto& format) { return format.param.name; });
+
+TEST_P(EveryTextFormat, IsReadWholeAndWithoutANoteOnItsEnd) {
+  const Outcome whole = GetParam().read(GetParam().text);
+  ASSERT_TRUE(whole.is_read) << whole.said;
+  EXPECT_GT(whole.num_readings, 0U);
+  EXPECT_EQ(whole.said.find("the last line has no end"), std::string::npos);
+}
+
+// Of what is cut within a line nothing passes unsaid.
+TEST_P(EveryTextFormat, CutAnywhereIsRefusedOrNotedAndGivesNoMoreReadings) {
+  const TextFormat& format = GetParam();
+  if (format.name == "ros_map") GTEST_SKIP() << "a description may end without a line's end";
+  const Outcome whole = format.read(format.text);
+  const std::size_t step = format.text.size() / 400 + 1;
+  for (std::size_t size = 0; size < format.text.size(); size += step) {
+    const std::string cut = format.text.substr(0, size);
+    const Outcome outcome = format.read(cut);
+    if (!outcome.is_read) continue;
+    EXPECT_LE(outcome.num_readings, whole.num_readings) << size;
+    if (cut.back() == '\n') continue;
+    EXPECT_NE(outcome.said.find("the last line has no end"), std::string::npos) << cut;
+  }
+}
+
+// Bytes of lines that say something; '#' would make a comment of them, which is no corruption.
+RC_GTEST_PROP(FormatDefects, AChangedByteIsRefusedOrKeepsTheNumberOfReadings, ()) {
+  static const std::vector<TextFormat> formats = text_formats();
+  const TextFormat& format = *rc::gen::elementOf(formats);
+  std::string text = format.text;
+  const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
+  const auto byte = static_cast<char>(*rc::gen::inRange(0, 256));
+  const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+  RC_PRE(byte != '#' && text[line] != '#');
+  const Outcome whole = format.read(text);
+  text[at] = byte;
+  const Outcome changed = format.read(text);
+  RC_ASSERT(!changed.is_read || changed.num_readings == whole.num_readings);
+  RC_ASSERT(changed.is_read || changed.said.find('\n') == std::string::npos);
+}
+
+TEST_P(EveryTextFormat, AnEndlessLineIsRefusedWithOneShortLine) {
+  if (GetParam().name == "ros_map") GTEST_SKIP() << "keys of other programs may follow";
+  std::string endless = GetParam().text;
+  for (int i = 0; i < 1'000'000; ++i) endless += "1 1,";
+  const Outcome outcome = GetParam().read(endless);
+  EXPECT_FALSE(outcome.is_read);
+  EXPECT_LT(outcome.said.size(), 400U) << outcome.said;
+  EXPECT_EQ(outcome.said.find('\n'), std::string::npos);
+}
+
+TEST_P(EveryTextFormat, ADecimalCommaIsRefused) {
+  // Where the first number with a point stands that the reader asks for; else behind the head.
+  const std::map<std::string, std::string> places = {
+      {"flaser", "FLASER"}, {"carmen_trajectory", " 0.05"}, {"euroc", "0.5,"}};
+  const auto place = places.find(GetParam().name);
+  std::string text = GetParam().text;
+  const std::size_t point = text.find('.', text.find(place == places.end() ? "\n" : place->second));
+  if (point == std::string::npos) GTEST_SKIP() << "whole numbers only";
+  text[point] = ',';
+  EXPECT_FALSE(GetParam().read(text).is_read);
+}
+
+// Reads as in a country with a decimal comma, whether the C library knows one or not.
+class DecimalComma {
+ public:
+  DecimalComma() {
+    struct Comma : std::numpunct<char> {
+      [[nodiscard]] char do_decimal_point() const override { return ','; }
+      [[nodiscard]] char do_thousands_sep() const override { return '.'; }
+      [[nodiscard]] std::string do_grouping() const override { return "\3"; }
+    };
+    std::locale::global(std::locale(std::locale::classic(), new Comma));
+    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "pt_BR.UTF-8", "ru_RU.UTF-8"}) {
+      if (std::setlocale(LC_ALL, name) != nullptr) break;
+    }
+  }
+  ~DecimalComma() {
+    std::locale::global(std::locale::classic());
+    std::setlocale(LC_ALL, "C");
+  }
+  DecimalComma(const DecimalComma&) = delete;
+  DecimalComma& operator=(const DecimalComma&) = delete;
+};
+
+TEST_P(EveryTextFormat, IsReadTheSameUnderALocaleWithADecimalComma) {
+  const Outcome plain = GetParam().read(GetParam().text);
+  const DecimalComma comma;
+  const Outcome abroad = GetParam().read(GetParam().text);
+  EXPECT_EQ(abroad.is_read, plain.is_read);
+  EXPECT_EQ(abroad.num_readings, plain.num_readings);
+  EXPECT_EQ(abroad.said, plain.said);
+}
+
+TEST(FormatDefects, NumbersAreReadAndWrittenTheSameUnderALocaleWithADecimalComma) {
+  const std::string toml = read_text(golden_file("robot_toml/whole.toml"));
+  const SensorLog log = test::small_log();
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_log(log, folder / "plain.clf"));
+  const auto robot = robot_from_toml(toml, "whole.toml");
+  ASSERT_TRUE(robot.has_value());
+  const DecimalComma comma;
+  const auto abroad = robot_from_toml(toml, "whole.toml");
+  ASSERT_TRUE(abroad.has_value()) << abroad.error().to_line();
+  EXPECT_EQ(robot_to_toml(*abroad), robot_to_toml(*robot));
+  EXPECT_EQ(abroad->lidar.range_sigma_m, 0.015);
+  ASSERT_TRUE(write_log(log, folder / "abroad.clf"));
+  EXPECT_EQ(read_text(folder / "abroad.clf"), read_text(folder / "plain.clf"));
+  const auto read = read_log(folder / "abroad.clf");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->num_scans(), log.num_scans());
+}
+
+// Stamps with an exponent, or so few digits that two readings share one.
+TEST(FormatDefects, StampsOfFewDigitsAreRefused) {
+  const ScratchFolder folder;
+  const auto said_of_log = [&](const char* file, const std::string& text) {
+    write_text(folder / file, text);
+    return read_as_log(folder / file).said;
+  };
+  const std::string odom = "ODOM 0 0 0 0 0 0 ";
+  EXPECT_NE(said_of_log("a.clf", odom + "1.1e9 h 0\n").find("stamp '1.1e9'"), std::string::npos);
+  EXPECT_NE(said_of_log("b.clf", odom + "1.1 h 0\n" + odom + "1.1 h 0\n").find("stamp repeats"),
+            std::string::npos);
+  const auto said_of_poses = [&](const std::string& text) {
+    write_text(folder / "a.tum", text);
+    const auto read = read_trajectory(folder / "a.tum");
+    return read ? std::string("read") : read.error().to_line();
+  };
+  EXPECT_NE(said_of_poses("1.1e9 0 0 0 0 0 0 1\n").find("stamp '1.1e9'"), std::string::npos);
+  EXPECT_NE(said_of_poses("7 0 0 0 0 0 0 1\n7 1 0 0 0 0 0 1\n").find("not later than the last"),
+            std::string::npos);
+  write_text(folder / "a.relations", "1.1e9 2 0 0 0 0 0 0\n");
+  EXPECT_NE(read_relations(folder / "a.relations").error().to_line().find("stamp '1.1e9'"),
+            std::string::npos);
+}
+
+// The same log with every length in centimetres.
+SensorLog in_centimetres(SensorLog log) {
+  for (SensorEvent& event : log.events) {
+    auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    scan->range_max_m *= 100;
+    for (float& range_m : scan->ranges_m) range_m *= 100;
+  }
+  log.robot.lidar.range_max_m *= 100;
+  return log;
+}
+
+SensorLog in_degrees(SensorLog log) {
+  constexpr double kDegrees = 57.29577951308232;
+  for (SensorEvent& event : log.events) {
+    auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    scan->angle_min_rad *= kDegrees;
+    scan->angle_increment_rad *= kDegrees;
+  }
+  return log;
+}
+
+constexpr const char* kWrittenLogs[] = {"a.clf", "a.rawlog", "a.bag"};
+
+TEST(FormatDefects, RangesInCentimetresAreSuspiciousInEveryLogFormat) {
+  for (const char* name : kWrittenLogs) {
+    const ScratchFolder folder;
+    ASSERT_TRUE(write_log(in_centimetres(test::small_log()), folder / name));
+    const auto read = read_log(folder / name);
+    ASSERT_TRUE(read.has_value()) << read.error().to_line();
+    EXPECT_NE(joined(examine(*read).suspicions).find("centimetres or millimetres"),
+              std::string::npos)
+        << name;
+  }
+}
+
+TEST(FormatDefects, AnglesInDegreesAreRefusedInEveryLogFormat) {
+  for (const char* name : kWrittenLogs) {
+    const ScratchFolder folder;
+    ASSERT_TRUE(write_log(in_degrees(test::small_log()), folder / name));
+    const Outcome outcome = read_as_log(folder / name);
+    EXPECT_FALSE(outcome.is_read) << name;
+    EXPECT_NE(outcome.said.find("2 pi"), std::string::npos) << outcome.said;
+  }
+}
+
+Outcome read_lcm(std::int64_t jump_us, std::vector<std::string>* suspicions = nullptr) {
+  const ScratchFolder folder;
+  write_text(folder / "a.lcm", test::small_lcm_log(0, jump_us).bytes());
+  write_text(folder / "a.robot.toml",
+             "[wheels]\ntrack_m = 0.1\nleft_m_per_tick = 1e-4\nright_m_per_tick = 1e-4\n"
+             "[lidar]\nrange_max_m = 8\n");
+  const auto log = read_log(folder / "a.lcm");
+  if (log && suspicions != nullptr) *suspicions = examine(*log).suspicions;
+  return read_as_log(folder / "a.lcm");
+}
+
+TEST(FormatDefects, AnLcmLogWhoseClocksJumpIsRefusedOrSuspicious) {
+  EXPECT_NE(read_lcm(-300'000).said.find("stamp"), std::string::npos);
+  EXPECT_FALSE(read_lcm(-300'000).is_read);
+  EXPECT_FALSE(read_lcm(12'000'000).is_read);
+  EXPECT_NE(read_lcm(12'000'000).said.find("gap of 12."), std::string::npos);
+  std::vector<std::string> suspicions;
+  EXPECT_TRUE(read_lcm(5'000'000, &suspicions).is_read);
+  EXPECT_NE(joined(suspicions).find("LiDAR: no reading for 5."), std::string::npos);
+  EXPECT_TRUE(read_lcm(0, &suspicions).is_read);
+  EXPECT_EQ(joined(suspicions).find("no reading"), std::string::npos);
+}
+
+// Poses may be far apart, but not in another order.
+TEST(FormatDefects, ATrajectoryWhoseClockJumpsBackIsRefusedAndOneWithAGapKeepsItsStamps) {
+  const ScratchFolder folder;
+  const auto write_poses = [&](const char* last_s) {
+    write_text(folder / "a.tum",
+               "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n" + std::string(last_s) + " 0 0 0 0 0 0 1\n");
+    return read_trajectory(folder / "a.tum");
+  };
+  const auto back = write_poses("1.5");
+  ASSERT_FALSE(back.has_value());
+  EXPECT_NE(back.error().to_line().find("a.tum:3: stamp '1.5' is not later"), std::string::npos);
+  const auto ahead = write_poses("7.000000001");
+  ASSERT_TRUE(ahead.has_value()) << ahead.error().to_line();
+  EXPECT_EQ(ahead->trajectory[2].stamp.nanoseconds, 7'000'000'001);
+}
+
+}  // namespace
+}  // namespace corridor::formats
