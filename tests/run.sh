@@ -2,7 +2,7 @@
 # Installs what is missing, builds the release and runs every test of it.
 #   tests/run.sh          release build and its tests (20 minutes at most on 2 cores)
 #   tests/run.sh --full   also formatting, build and tests with AddressSanitizer and
-#                         UndefinedBehaviorSanitizer, and two minutes of fuzzing (45 minutes at most)
+#                         UndefinedBehaviorSanitizer, and two minutes of fuzzing (40 minutes at most)
 # Tests that need recorded data look for it in $CORRIDOR_BENCH_DATA and are skipped, with a message,
 # where it is not. Needs root only while packages are missing.
 set -euo pipefail

@@ -8,8 +8,8 @@ enum class RawClock {
   kData,         // "data": all sensors stamp with one clock
   kEventOffset,  // "event-offset": wheels and IMU count from a start of their own; the events'
                  // times lead from there to the LiDAR's clock, which is the logger's
-  kScanRate,     // "scan-rate": the LiDAR turns at a constant rate; its scans lie on the line through
-                 // the stamps of the program that read it, early or late
+  kScanRate,  // "scan-rate": the LiDAR turns at a constant rate; its scans lie on the line through
+              // the stamps of the program that read it, early or late
 };
 
 struct RawSensors {

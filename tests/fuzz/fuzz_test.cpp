@@ -70,6 +70,8 @@ bool is_read(const Target& target, const fs::path& path) {
   return target.read({bytes.data(), bytes.size()});
 }
 
+void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
+
 class FuzzRegressions : public ::testing::TestWithParam<Target> {};
 
 TEST_P(FuzzRegressions, SeedsAreRead) {

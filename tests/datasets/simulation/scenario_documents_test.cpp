@@ -31,19 +31,26 @@ TEST(ScenarioDocuments, EveryExampleOfTheReadmeGivesALogWithoutDefects) {
 }
 
 // The sum that the README gives for the defaults, from the rule that refuses a route.
-TEST(ScenarioDocuments, TheRoomThatTheReadmeStatesIsThatOfTheRules) {
+// Along y = 0 to x = 20 m, then along +y, in a hall with this much room on all sides of the route.
+bool is_fit_with(double start_room_m, double bend_room_m, double end_room_m) {
   const ScratchFolder folder;
-  const auto is_fit = [&](double room_m) {
-    const double wall_y_m = 2 * room_m;
-    const std::string text = fmt::format(
-        "[world]\npolygons = [{{ points_m = [[0, 0], [30, 0], [30, {0}], [0, {0}]] }}]\n"
-        "route_m = [[5, {1}], [25, {1}]]\n",
-        wall_y_m, room_m);
-    return read_scenario(folder.write("room.toml", text)).has_value();
-  };
-  EXPECT_TRUE(is_fit(1.0601));
-  EXPECT_FALSE(is_fit(1.0599));
-  EXPECT_NE(text_of_document("datasets/scenarios/README.md").find("= 1.06 m"), std::string::npos);
+  const std::string text = fmt::format(
+      "[world]\npolygons = [{{ closed = false, points_m = [[{0}, -9], [{0}, 9]] }},\n"
+      "{{ closed = false, points_m = [[{1}, -9], [{1}, 2]] }},\n"
+      "{{ closed = false, points_m = [[9, {2}], [30, {2}]] }}]\n"
+      "route_m = [[0, 0], [20, 0], [20, 20]]\n",
+      -start_room_m, 20 + bend_room_m, 20 + end_room_m);
+  return read_scenario(folder.write("room.toml", text)).has_value();
+}
+
+TEST(ScenarioDocuments, TheRoomThatTheReadmeStatesIsThatOfTheRules) {
+  EXPECT_TRUE(is_fit_with(1.09, 1.23, 1.07));
+  EXPECT_FALSE(is_fit_with(1.08, 1.23, 1.07));
+  EXPECT_FALSE(is_fit_with(1.09, 1.22, 1.07));
+  EXPECT_FALSE(is_fit_with(1.09, 1.23, 1.05));
+  EXPECT_NE(text_of_document("datasets/scenarios/README.md")
+                .find("1.09 m at the start, 1.23 m at a right-angled bend and 1.06 m at the end"),
+            std::string::npos);
 }
 
 }  // namespace
