@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Fuzzes the readers of datasets/: builds the preset 'fuzz' and lets libFuzzer try inputs on each target.
-#   tests/fuzz.sh [--seconds N] [--total N] [--jobs N] [TARGET...]
+#   tests/fuzz.sh [--seconds N] [--total N] [--jobs N] [--keep] [TARGET...]
 #     --seconds N   per target (default 600)
 #     --total N     for all targets together, instead of --seconds
 #     --jobs N      targets at a time (default: as many as there are cores, 2 GiB of memory for each)
+#     --keep        puts what the targets' corpora have grown by, minimised, into tests/fuzz/grown
 # Without a target, all of them. Exit status: 0 nothing found, 1 findings, 2 wrong request.
 # Needs root only while packages are missing. tests/fuzz/README.md says what to do with a finding.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../bench/setup.sh"
 
-seconds=600 total='' jobs=$(corridor_jobs)
+seconds=600 total='' jobs=$(corridor_jobs) keep=false
 wanted=()
 
 number() {
@@ -21,8 +22,9 @@ while [ $# -gt 0 ]; do
     --seconds) number "$1" "${2:-}"; seconds=$2; shift 2 ;;
     --total) number "$1" "${2:-}"; total=$2; shift 2 ;;
     --jobs) number "$1" "${2:-}"; jobs=$2; shift 2 ;;
-    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
-    -*) corridor_die "unknown option '$1'; expected --seconds, --total, --jobs or targets" ;;
+    --keep) keep=true; shift ;;
+    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    -*) corridor_die "unknown option '$1'; expected --seconds, --total, --jobs, --keep or targets" ;;
     *) wanted+=("$1"); shift ;;
   esac
 done
@@ -56,6 +58,35 @@ fuzz_one() {
     $([ ! -e "$dictionary" ] || echo "-dict=$dictionary") >"$logs/$name.log" 2>&1 || status=$?
   report "$name" "$status"
   return "$status"
+}
+
+# What earlier runs found and was kept joins what this checkout's runs found.
+unpack_grown() {
+  local archive name
+  for archive in "$here"/grown/*.tar.gz; do
+    [ -e "$archive" ] || continue
+    name=$(basename "$archive" .tar.gz)
+    mkdir -p "$grown/$name"
+    tar --extract --gzip --skip-old-files --file="$archive" --directory="$grown/$name"
+  done
+}
+
+# Inputs that together reach all that the corpus of a target reaches and its seeds do not, in an
+# archive whose bytes depend on nothing else.
+keep_grown() {
+  local name merged=$build/merged
+  while read -r name _; do
+    rm -rf "$merged" && mkdir -p "$merged"
+    cp "$here/corpus/$name"/* "$merged"
+    "$build/bin/fuzz_$name" -merge=1 -rss_limit_mb=2048 -timeout=10 "$merged" "$grown/$name" \
+      >"$logs/$name.merge.log" 2>&1
+    (cd "$here/corpus/$name" && for seed in *; do rm -f "$merged/$seed"; done)
+    mkdir -p "$here/grown"
+    tar --create --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=644 \
+      --directory="$merged" . | gzip --no-name --best >"$here/grown/$name.tar.gz"
+    printf '%-18s %6d inputs kept, %s\n' "$name" "$(find "$merged" -type f | wc -l)" \
+      "$(du -h "$here/grown/$name.tar.gz" | cut -f1)"
+  done <<<"$list"
 }
 
 # One line per target from libFuzzer's log.
@@ -98,6 +129,8 @@ list=$(targets)
 [ -z "$total" ] || seconds=$((total * jobs / $(wc -l <<<"$list")))
 [ "$seconds" -gt 0 ] || seconds=1
 status=0
+unpack_grown
 corridor_step "fuzzing" fuzz_all || status=1
+if $keep; then corridor_step "corpora" keep_grown || status=1; fi
 corridor_print_steps
 exit "$status"

@@ -79,6 +79,9 @@ void visit_what(auto& r, auto&& v) {
   v(ResultKey{"data_digest", "", "hash of the log, its truth and calibration, or of the scenario",
               false},
     r.data_digest);
+  v(ResultKey{"true_poses", "", "truth, or reference: poses another program found; null for none",
+              false},
+    r.true_poses);
   v(ResultKey{"data_seed", "", "seed of the simulated log, null for recorded data", false},
     r.data_seed);
   v(ResultKey{"system_seed", "", "seed of the system's random generator", false}, r.system_seed);

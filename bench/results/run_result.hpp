@@ -78,6 +78,9 @@ struct RunResult {
   std::string dataset;                     // catalogue name, scenario name or file
   std::optional<std::string> data_source;  // what was loaded: name, or absolute path of the file
   std::optional<std::string> data_digest;  // of the log and its truth, or the scenario's values
+  // What poses are compared with: "truth", or "reference", poses that another program found; null:
+  // with none, or an older revision.
+  std::optional<std::string> true_poses;
   std::optional<std::uint64_t> data_seed;  // null for recorded data
   std::uint64_t system_seed = 0;
   int threads = 1;

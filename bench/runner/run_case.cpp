@@ -216,6 +216,9 @@ tl::expected<RunResult, CaseFailure> run_case(const CaseSpec& spec, const catalo
     take_counters(*run.estimate, result);
     rendered_map = render_map(data->log, run.estimate->trajectory);
   }
+  if (data->log.truth) {
+    result.true_poses = data->log.provenance.is_truth_reference ? "reference" : "truth";
+  }
   result.notes = score(*data, run, rendered_map, result);
   score_cost(run, (*system)->stage_clock(), data->log.duration_s(), result);
   settle_status(*data, run, result);

@@ -1,8 +1,10 @@
 // Table 2 of the paper, the paired comparison behind it, and the relation errors on recorded data.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "reports/metrics.hpp"
 #include "reports/published.hpp"
@@ -89,6 +91,19 @@ Factor factor_of(const Cases& cases, const std::string& dataset, const Series& s
           std::string(is_different ? "yes" : "no")};
 }
 
+// Errors against another program's poses contain that program's errors.
+void append_reference_note(const Cases& cases, std::vector<std::string>& notes) {
+  std::set<std::string> datasets;
+  for (const reports::Case& entry : cases.all()) {
+    if (entry.result.true_poses == "reference") datasets.insert(entry.result.dataset);
+  }
+  if (datasets.empty()) return;
+  notes.push_back(
+      fmt::format("{}: compared with poses that the robot's own SLAM program found, a reference "
+                  "with errors of its own: small differences say nothing.",
+                  fmt::join(datasets, ", ")));
+}
+
 }  // namespace
 
 Table trajectory_error_table(const Cases& cases) {
@@ -136,6 +151,7 @@ Table trajectory_error_table(const Cases& cases) {
                   "gives no value and counts as not ok.",
                   kMinValuesForInterval),
   };
+  append_reference_note(cases, table.notes);
   const std::vector<std::string> datasets = cases.datasets();
   if (std::any_of(datasets.begin(), datasets.end(),
                   [&](const std::string& dataset) { return is_paper_world(cases, dataset); })) {

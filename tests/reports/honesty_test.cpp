@@ -70,6 +70,16 @@ TEST(TimingNotes, StandInEveryTableOfTimes) {
   EXPECT_THAT(html::caveats(cases), Contains(HasSubstr(note)));
 }
 
+TEST(ErrorTable, SaysWhereErrorsAreAgainstAReferenceAndNoTruth) {
+  std::vector<RunResult> results = synthetic_results({{"karto", 0.06}}, 2);
+  for (RunResult& result : results) result.true_poses = "truth";
+  EXPECT_THAT(tables::trajectory_error_table(make_cases(results)).notes,
+              Not(Contains(HasSubstr("a reference"))));
+  results[1].true_poses = "reference";
+  EXPECT_THAT(tables::trajectory_error_table(make_cases(results)).notes,
+              Contains(StartsWith("synthetic-corridor: compared with poses that the robot's own")));
+}
+
 TEST(PaperWorld, IsNoLogOfOnesOwn) {
   std::vector<RunResult> results = synthetic_results({{"karto", 0.06}}, 2);
   EXPECT_TRUE(tables::is_paper_world(make_cases(results), "synthetic-corridor"));

@@ -199,6 +199,13 @@ class LcmAssembler {
       out_.add(std::move(scan), begin);
     }
     note_fan(shape, losses);
+    if (2 * losses.num_beyond_seam > losses.num_beams) {
+      return failure(
+          in_.sweeps.front().begin,
+          fmt::format("{} of {} beams lie half a turn or more from where they were taken",
+                      losses.num_beyond_seam, losses.num_beams),
+          "sweeps of a whole turn each");
+    }
     if (num_beyond > 0)
       out_.counts["beams beyond the LiDAR's limit taken as no return"] = num_beyond;
     if (2 * num_beyond <= num_returns) return {};

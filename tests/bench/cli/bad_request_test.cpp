@@ -13,19 +13,6 @@ constexpr const char* kGoodLog =
     "ODOM 0.1 0 0 0.2 0 0 1.1 host 1.1\n"
     "FLASER 4 1 1 1 1 0.1 0 0 0.1 0 0 1.1 host 1.1\n";
 
-void expect_refused(const ScratchFolder& folder, const std::string& arguments,
-                    const std::vector<std::string>& parts) {
-  const std::vector<std::string> before = contents_of(folder.path());
-  const Answer answer = run_program(folder, arguments);
-  EXPECT_EQ(answer.exit_code, 2) << arguments;
-  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
-  EXPECT_EQ(answer.out, "") << arguments;
-  for (const std::string& part : parts) {
-    EXPECT_NE(answer.err.find(part), std::string::npos) << part << " in " << answer.err;
-  }
-  EXPECT_EQ(contents_of(folder.path()), before) << arguments;
-}
-
 TEST(BadRequest, AnEmptyLog) {
   const ScratchFolder folder;
   folder.write("empty.clf", "");

@@ -10,19 +10,6 @@ constexpr const char* kTum = "1.000000001 1 2 0 0 0 0 1\n2.5 3 4 0 0 0 1 0\n";
 constexpr const char* kG2o =
     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nFIX 0\nEDGE_SE2 0 1 1 0 0 1 0.1 0.2 2 0.3 3\n";
 
-void expect_refused(const ScratchFolder& folder, const std::string& arguments,
-                    const std::vector<std::string>& parts) {
-  const std::vector<std::string> before = contents_of(folder.path());
-  const Answer answer = run_program(folder, arguments);
-  EXPECT_EQ(answer.exit_code, 2) << arguments;
-  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
-  EXPECT_EQ(answer.out, "") << arguments;
-  for (const std::string& part : parts) {
-    EXPECT_NE(answer.err.find(part), std::string::npos) << part << " in " << answer.err;
-  }
-  EXPECT_EQ(contents_of(folder.path()), before) << arguments;
-}
-
 TEST(Convert, TakesATrajectoryThroughEveryFormatAndBack) {
   const ScratchFolder folder;
   folder.write("a.tum", kTum);

@@ -1,6 +1,7 @@
 // Starts the program under test as a user would and keeps what it said.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -54,6 +55,20 @@ inline std::vector<std::string> contents_of(const std::filesystem::path& folder)
   }
   std::sort(paths.begin(), paths.end());
   return paths;
+}
+
+// One line on stderr with these parts, exit code 2, and nothing left in the folder.
+inline void expect_refused(const ScratchFolder& folder, const std::string& arguments,
+                           const std::vector<std::string>& parts) {
+  const std::vector<std::string> before = contents_of(folder.path());
+  const Answer answer = run_program(folder, arguments);
+  EXPECT_EQ(answer.exit_code, 2) << arguments;
+  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+  EXPECT_EQ(answer.out, "") << arguments;
+  for (const std::string& part : parts) {
+    EXPECT_NE(answer.err.find(part), std::string::npos) << part << " in " << answer.err;
+  }
+  EXPECT_EQ(contents_of(folder.path()), before) << arguments;
 }
 
 }  // namespace corridor::testing

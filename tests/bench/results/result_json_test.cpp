@@ -38,7 +38,8 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "slip_latency_s degeneracy_precision degeneracy_recall stages step_p50_us step_p95_us "
       "step_p99_us step_max_us wall_s cpu_s peak_rss_mib realtime_factor "
       // beyond the contract's table
-      "case_id suite data_source data_digest jobs notes parameters overrides build_id counters "
+      "case_id suite data_source data_digest true_poses jobs notes parameters overrides build_id "
+      "counters "
       "online_relations_used "
       "online_relations_skipped "
       "online_relations_translation_mean_m online_relations_translation_std_m "

@@ -231,23 +231,17 @@ TEST(Catalog, EveryFileThatIsFoundHasItsChecksum) {
 
 // The report's rules have margins that no sound recording comes near.
 TEST(Catalog, EveryLogThatIsFoundIsFitAndUnderNoSuspicion) {
-  const auto catalog =
-      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
-  ASSERT_TRUE(catalog.has_value());
-  const DataDirs dirs = standard_data_dirs();
-  std::size_t num_examined = 0;
-  for (const DatasetRow& row : list_datasets(*catalog, dirs)) {
-    if (!row.is_found || !row.is_readable) continue;
-    const auto source = find_log(row.name, dirs, *catalog);
-    ASSERT_TRUE(source.has_value()) << source.error().to_line();
-    const auto found = formats::read_log_as_found(source->path, source->options);
-    ASSERT_TRUE(found.has_value()) << found.error().to_line();
-    const formats::LogHealth health = formats::examine(found->log);
-    EXPECT_TRUE(health.defects.empty()) << row.name << ": " << health.defects.front();
-    EXPECT_TRUE(health.suspicions.empty()) << row.name << ": " << health.suspicions.front();
-    ++num_examined;
-  }
-  if (num_examined == 0) GTEST_SKIP() << "no data found; set $CORRIDOR_BENCH_DATA to their folder";
+  const bool has_any = test::for_each_log_found(
+      [](const DatasetRow& row, const Catalog& catalog, const DataDirs& dirs) {
+        const auto source = find_log(row.name, dirs, catalog);
+        ASSERT_TRUE(source.has_value()) << source.error().to_line();
+        const auto found = formats::read_log_as_found(source->path, source->options);
+        ASSERT_TRUE(found.has_value()) << found.error().to_line();
+        const formats::LogHealth health = formats::examine(found->log);
+        EXPECT_TRUE(health.defects.empty()) << row.name << ": " << health.defects.front();
+        EXPECT_TRUE(health.suspicions.empty()) << row.name << ": " << health.suspicions.front();
+      });
+  if (!has_any) GTEST_SKIP() << test::kNoData;
 }
 
 // Every catalogued graph that this machine has is what a solver can take.

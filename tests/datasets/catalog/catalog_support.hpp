@@ -1,6 +1,8 @@
 // A tiny log with relations, and the catalogue that knows both.
 #pragma once
 
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "datasets/catalog/load_dataset.hpp"
@@ -47,5 +49,23 @@ struct TinyData {
   ScratchFolder folder;
   DataDirs dirs;
 };
+
+// Calls with every catalogued log that this machine has; false where it has none.
+template <class F>
+bool for_each_log_found(F&& with_row) {
+  const auto catalog =
+      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
+  if (!catalog) throw std::runtime_error(catalog.error().to_line());
+  const DataDirs dirs = standard_data_dirs();
+  bool has_any = false;
+  for (const DatasetRow& row : list_datasets(*catalog, dirs)) {
+    if (!row.is_found || !row.is_readable) continue;
+    with_row(row, *catalog, dirs);
+    has_any = true;
+  }
+  return has_any;
+}
+
+inline constexpr const char* kNoData = "no data found; set $CORRIDOR_BENCH_DATA to their folder";
 
 }  // namespace corridor::catalog::test

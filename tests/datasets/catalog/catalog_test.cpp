@@ -304,25 +304,19 @@ TEST(DataDirs, AreSearchedInTheDocumentedOrder) {
 
 // Every catalogued log that this machine has loads by its name, with the bytes of the catalogue.
 TEST(Catalog, EveryReadableDatasetThatIsFoundLoads) {
-  const auto catalog =
-      read_catalog(std::filesystem::path(CORRIDOR_SOURCE_DIR) / "datasets/catalog.toml");
-  ASSERT_TRUE(catalog.has_value());
-  const DataDirs dirs = standard_data_dirs();
-  std::size_t num_loaded = 0;
-  for (const DatasetRow& row : list_datasets(*catalog, dirs)) {
-    if (!row.is_found || !row.is_readable) continue;
-    const auto loaded = load_dataset(row.name, dirs, *catalog);
-    ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
-    EXPECT_EQ(loaded->relations.has_value(), row.truth == TruthKind::kRelations) << row.name;
-    EXPECT_EQ(loaded->log.truth.has_value(),
-              row.truth == TruthKind::kTum || row.truth == TruthKind::kReference)
-        << row.name;
-    for (const std::string& note : loaded->log.provenance.notes) {
-      EXPECT_EQ(note.find("robot model"), std::string::npos) << row.name << ": " << note;
-    }
-    ++num_loaded;
-  }
-  if (num_loaded == 0) GTEST_SKIP() << "no data found; set $CORRIDOR_BENCH_DATA to their folder";
+  const bool has_any = test::for_each_log_found(
+      [](const DatasetRow& row, const Catalog& catalog, const DataDirs& dirs) {
+        const auto loaded = load_dataset(row.name, dirs, catalog);
+        ASSERT_TRUE(loaded.has_value()) << loaded.error().to_line();
+        EXPECT_EQ(loaded->relations.has_value(), row.truth == TruthKind::kRelations) << row.name;
+        EXPECT_EQ(loaded->log.truth.has_value(),
+                  row.truth == TruthKind::kTum || row.truth == TruthKind::kReference)
+            << row.name;
+        for (const std::string& note : loaded->log.provenance.notes) {
+          EXPECT_EQ(note.find("robot model"), std::string::npos) << row.name << ": " << note;
+        }
+      });
+  if (!has_any) GTEST_SKIP() << test::kNoData;
 }
 
 }  // namespace

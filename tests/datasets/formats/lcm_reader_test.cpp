@@ -227,6 +227,17 @@ TEST(LcmReader, RangesInCentimetresAreRefused) {
   EXPECT_NE(parsed.error().to_line().find("40 of 40 ranges lie beyond 8 m"), std::string::npos);
 }
 
+TEST(LcmReader, SweepsOfLessThanATurnAreRefused) {
+  ScanBeams beams = test::regular_beams(kBegin_us);
+  for (float& angle_rad : beams.angles_rad) angle_rad *= 0.25F;
+  LcmLog log;
+  log.add(kBegin_us, "MAEBOT_LASER_SCAN", test::scan_message(kBegin_us, beams));
+  const auto parsed = parse(log);
+  ASSERT_FALSE(parsed.has_value());
+  EXPECT_NE(parsed.error().to_line().find("sweeps of a whole turn each"), std::string::npos)
+      << parsed.error().to_line();
+}
+
 TEST(LcmReader, StampsThatStepBackOrRepeatAreRefusedUnderBothClocks) {
   for (const std::int64_t back_us : {0, 10'000}) {
     const std::int64_t last_us = kBegin_us + 950'000 - back_us;
