@@ -52,6 +52,13 @@ Result<void> check_convert(const catalog::LoadedDataset& in, const fs::path& out
     return fail(ErrorCode::kInvalid, "this file would pass for one of the new log",
                 file.target.string(), "another name for the log, or that file removed");
   }
+  const fs::path robot = formats::sidecar_of(out, ".robot.toml");
+  const bool is_own =
+      is_same_file(robot, formats::sidecar_of(in.log.provenance.source, ".robot.toml"));
+  if (fs::exists(robot) && !is_own) {
+    return fail(ErrorCode::kInvalid, "this file would calibrate the new log", robot.string(),
+                "another name for the log, or that file removed");
+  }
   const fs::path topics = formats::sidecar_of(out, ".topics.toml");
   if (formats::format_from_suffix(out) == formats::LogFormat::kRosbag && fs::exists(topics)) {
     return fail(ErrorCode::kInvalid, "this file would name the topics of the new bag",

@@ -190,6 +190,14 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
     }
     robot.lidar.scan_duration_s = median_s;
   }
+  if (log.has_clockwise_scans && !log.scans_state_duration && robot.lidar.scan_duration_s != 0) {
+    return fail(ErrorCode::kInvalid,
+                fmt::format("lidar.scan_duration_s = {} for clockwise scans without times of their "
+                            "beams",
+                            robot.lidar.scan_duration_s),
+                sources.sidecar_toml ? sources.sidecar_file : "the robot model",
+                "time_increment in the messages, and no scan_duration_s");
+  }
   for_each_scan(log, [&](LaserScan& scan) {
     scan.range_min_m = robot.lidar.range_min_m;
     if (!log.scans_state_duration) scan.duration_s = robot.lidar.scan_duration_s;

@@ -105,6 +105,7 @@ class LossFinder {
     if (says_more(log_.robot, kept)) {
       lines_.emplace_back("the robot model is left out, but for the LiDAR's pose and range");
     }
+    note_lidar_clock();
     note_reference();
     return std::move(lines_);
   }
@@ -142,11 +143,22 @@ class LossFinder {
     if (says_more(log_.robot, kept)) {
       lines_.emplace_back("the robot model is left out, with the places of LiDAR and IMU");
     }
+    note_lidar_clock();
     note_reference();
     return std::move(lines_);
   }
 
  private:
+  // The stamps stay, what they mean is lost.
+  void note_lidar_clock() {
+    const double offset_s = log_.robot.lidar.time_offset_s;
+    if (offset_s == 0) return;
+    lines_.push_back(
+        fmt::format("the LiDAR's stamps stay {} s ahead of the wheels': to be stated as "
+                    "lidar.time_offset_s in the new log's .robot.toml",
+                    offset_s));
+  }
+
   // CARMEN's laser lines state a pose, whether the wheels gave one then or not.
   void note_scans_alone() {
     const auto events = carmen_events(log_);

@@ -40,6 +40,9 @@ struct ParsedLog {
   bool scans_state_pose = true;
   // True for logs with a moment for each beam: the scans' duration_s stands, the model's follows.
   bool scans_state_duration = false;
+  // True where scans were turned round to be counter-clockwise: without a moment for each beam
+  // their stamp is still that of the beam that is last now.
+  bool has_clockwise_scans = false;
   // True if the scans' stamps lie on the wheels' clock already: nothing is left of
   // lidar.time_offset_s.
   bool is_time_offset_applied = false;

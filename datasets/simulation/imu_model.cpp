@@ -35,9 +35,9 @@ Eigen::Vector2d FloorTilt::advance(double path_m) {
   if (sigma_rad_ == 0) return Eigen::Vector2d::Zero();
   const double decay = std::exp(-std::abs(path_m) / length_m_);
   const double driven_rad = sigma_rad_ * std::sqrt(1 - decay * decay);
-  const double pitch_change_rad = rng_.normal(0, driven_rad);
-  const double roll_change_rad = rng_.normal(0, driven_rad);
-  tilt_rad_ = decay * tilt_rad_ + Eigen::Vector2d(pitch_change_rad, roll_change_rad);
+  const double x_slope_change_rad = rng_.normal(0, driven_rad);
+  const double y_slope_change_rad = rng_.normal(0, driven_rad);
+  tilt_rad_ = decay * tilt_rad_ + Eigen::Vector2d(x_slope_change_rad, y_slope_change_rad);
   return kGravity_mps2 * Eigen::Vector2d(std::sin(tilt_rad_.x()), std::sin(tilt_rad_.y()));
 }
 

@@ -57,7 +57,7 @@ std::optional<LidarModel::RayEnd> LidarModel::meet(const Vector2d& origin_m, dou
                   hit->surface_index,
                   hit->range_m <= material.range_factor * params_.range_max_m};
   }
-  return std::nullopt;
+  return nearest_person;
 }
 
 // The rays across a beam with a width, from its one edge to the other. Neighbours met one thing if

@@ -62,7 +62,12 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
   for (int i = 0; i < params.hold_unseen_passes && match.is_usable(); ++i) {
     const Eigen::Matrix3d unseen = matching::unseen_information(match, params.observability);
     if (unseen.isZero()) break;
-    match = submap.match(points_base_m, T_predicted, loose + unseen, robot.lidar.range_sigma_m);
+    const matching::MatchResult held =
+        submap.match(points_base_m, T_predicted, loose + unseen, robot.lidar.range_sigma_m);
+    // Where it explains less, the prediction lies in a basin that the search had to leave.
+    const double least_ratio = std::min(match.inlier_ratio, params.retry_inlier_ratio);
+    if (!held.is_usable() || held.inlier_ratio < least_ratio) break;
+    match = held;
   }
   if (!match.is_usable()) return tracked;
   tracked.match = matching::observable_part(match, params.observability);

@@ -42,8 +42,9 @@ struct ObservableMatch {
   double weakest_information_ratio = 0;
 };
 
-// Prior information, 3x3 in base, order (x_m, y_m, theta_rad), that holds a pose to within the
-// floors along the directions that the scan does not see; zero if it sees all. Requires
+// Prior information, 3x3, order (x_m, y_m, theta_rad), that holds a pose to within the floors along
+// the directions that the scan does not see; zero if it sees all. In base at match.T_map_base: used
+// at a prediction it leaks half the heading's correction times that across the direction. Requires
 // match.is_usable().
 Eigen::Matrix3d unseen_information(const MatchResult& match, const ObservabilityParams& params);
 

@@ -107,6 +107,7 @@ BagMessageReader::Taken BagMessageReader::take_scan(const ros1::Scan& scan, Time
     // The message's last beam is beam 0 now, and its moment the scan's stamp.
     taken.stamp = add_seconds(stamp, taken.duration_s);
     taken.duration_s = -taken.duration_s;
+    log_.has_clockwise_scans = true;
     ++log_.counts["clockwise scans put into counter-clockwise order"];
   }
   keep_limits(scan);

@@ -130,7 +130,19 @@ TEST(Convert, SaysOnlyWhatIsLostOfThisVeryLog) {
   EXPECT_NE(again.out.find("nothing lost"), std::string::npos) << again.out;
 }
 
-TEST(Convert, RefusesABrokenBagAndAStrangersTopics) {
+TEST(Convert, NamesTheLidarsClockWhereTheNewLogCannot) {
+  const ScratchFolder folder;
+  folder.write("late.toml", "base = \"stand-still\"\n[lidar]\ntime_offset_s = 0.1\n");
+  ASSERT_EQ(run_program(folder, "simulate late.toml --out a.rawlog --quiet").exit_code, 0);
+  for (const std::string to : {"b.bag", "b.clf"}) {
+    const Answer answer = run_program(folder, "convert a.rawlog " + to);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("lost: the LiDAR's stamps stay 0.1 s ahead"), std::string::npos)
+        << answer.out;
+  }
+}
+
+TEST(Convert, RefusesABrokenBagAndAStrangersTopicsOrCalibration) {
   const ScratchFolder folder;
   ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
   ASSERT_EQ(run_program(folder, "convert a.rawlog b.bag --quiet").exit_code, 0);
@@ -139,6 +151,8 @@ TEST(Convert, RefusesABrokenBagAndAStrangersTopics) {
   folder.write("d.topics.toml", "[topics]\n");
   expect_refused(folder, "convert cut.bag c.rawlog", {"cut.bag: byte 13: ", "index at byte"});
   expect_refused(folder, "convert a.rawlog d.bag", {"d.topics.toml", "topics of the new bag"});
+  folder.write("e.robot.toml", "[lidar]\nx_m = 1.0\n");
+  expect_refused(folder, "convert a.rawlog e.bag", {"e.robot.toml", "would calibrate the new log"});
 }
 
 TEST(Convert, RefusesToMakeOneKindOfFileFromAnother) {

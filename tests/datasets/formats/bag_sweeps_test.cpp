@@ -129,5 +129,27 @@ TEST(BagSweeps, TheSidecarsSweepGoesBeforeTheScans) {
   EXPECT_NE(notes_of(*read).find("0.05 s by the sidecar, 0.0625 s"), std::string::npos);
 }
 
+// A duration alone does not say whether the stamp is that of the first beam or of the last.
+TEST(BagSweeps, ASweepThatOnlyTheModelKnowsIsRefusedForClockwiseScans) {
+  for (const float increment_s : {0.0F, 0.015625F}) {
+    auto messages = small_bag();
+    for (ros1::Message& message : messages) {
+      if (auto* scan = std::get_if<ros1::Scan>(&message.content)) {
+        turn_clockwise(*scan);
+        scan->time_increment_s = increment_s;
+      }
+    }
+    const ScratchFolder folder;
+    write_bag(folder / "a.bag", messages);
+    EXPECT_TRUE(read_log(folder / "a.bag").has_value());
+    write_text(folder / "a.robot.toml", "[lidar]\nscan_duration_s = 0.05\n");
+    const auto read = read_log(folder / "a.bag");
+    ASSERT_FALSE(read.has_value());
+    EXPECT_NE(read.error().to_line().find("lidar.scan_duration_s = 0.05 for clockwise scans"),
+              std::string::npos)
+        << read.error().to_line();
+  }
+}
+
 }  // namespace
 }  // namespace corridor::formats

@@ -78,7 +78,8 @@ RC_GTEST_PROP(MatchScan, IsNotDrawnBackAlongARangeLimitedCorridor, (std::uint64_
   const Pose2::Tangent error = part.T_map_base.minus(truth);
   RC_ASSERT(std::abs(error.y()) < 0.01);
   RC_ASSERT(std::abs(error.z()) < 0.004);
-  RC_ASSERT(std::abs(error.x()) < 0.03);
+  // Nothing but the prior holds it there: a tenth of the 0.5 m that a pull to standing still takes.
+  RC_ASSERT(std::abs(error.x()) < 0.05);
 }
 
 TEST(MatchScan, MeanErrorAlongACorridorIsNoPullToZero) {
