@@ -67,7 +67,8 @@ class TopicsReader {
       if (document_.contains("joints")) complain("topics.joints", "missing");
       return std::nullopt;
     }
-    const auto ticks = document_["joints"]["ticks_per_turn"].value<std::int64_t>();
+    // Exactly an integer: toml++ casts a float of any size to one before it looks at it.
+    const auto ticks = document_["joints"]["ticks_per_turn"].value_exact<std::int64_t>();
     WheelJoints joints{*topic, text("joints", "left").value_or(""),
                        text("joints", "right").value_or(""), ticks.value_or(0)};
     if (joints.topic.empty()) complain("topics.joints", "empty");
