@@ -2,7 +2,7 @@
 # Fuzzes the readers of datasets/: builds the preset 'fuzz' and lets libFuzzer try inputs on each target.
 #   tests/fuzz.sh [--seconds N] [--total N] [--jobs N] [--keep] [TARGET...]
 #     --seconds N   per target (default 600)
-#     --total N     for all targets together, instead of --seconds
+#     --total N     for all targets together, instead of --seconds, and from the same random seed
 #     --jobs N      targets at a time (default: as many as there are cores, 2 GiB of memory for each)
 #     --keep        puts what the targets' corpora have grown by, minimised, into tests/fuzz/grown
 # Without a target, all of them. Exit status: 0 nothing found, 1 findings, 2 wrong request.
@@ -11,6 +11,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../bench/setup.sh"
 
 seconds=600 total='' jobs=$(corridor_jobs) keep=false
+seed=0  # libFuzzer's word for another one every time
 wanted=()
 
 number() {
@@ -55,7 +56,7 @@ fuzz_one() {
   # An input of at most 4 KiB that takes 10 s or 2 GiB is a finding.
   "$build/bin/fuzz_$name" "${inputs[@]}" -max_total_time="$time" -max_len="$max_len" \
     -rss_limit_mb=2048 -timeout=10 -artifact_prefix="$found/$name/" -print_final_stats=1 \
-    $([ ! -e "$dictionary" ] || echo "-dict=$dictionary") >"$logs/$name.log" 2>&1 || status=$?
+    -seed="$seed" $([ ! -e "$dictionary" ] || echo "-dict=$dictionary") >"$logs/$name.log" 2>&1 || status=$?
   report "$name" "$status"
   return "$status"
 }
@@ -118,7 +119,7 @@ targets() {
 fuzz_all() {
   echo "$seconds s per target, $jobs at a time; logs in build/fuzz/logs, findings in build/fuzz/findings"
   export -f fuzz_one report
-  export build here grown found logs seconds
+  export build here grown found logs seconds seed
   xargs --max-procs="$jobs" --max-lines=1 bash -c 'fuzz_one "$0" "$1" "$seconds"' <<<"$list"
 }
 
@@ -126,7 +127,8 @@ mkdir -p "$corridor_root/build"
 corridor_step "packages" corridor_install tests
 corridor_step "build 'fuzz'" build_fuzzers
 list=$(targets)
-[ -z "$total" ] || seconds=$((total * jobs / $(wc -l <<<"$list")))
+# A check before a change goes in asks the same questions every time; long runs ask new ones.
+[ -z "$total" ] || { seed=1; seconds=$((total * jobs / $(wc -l <<<"$list"))); }
 [ "$seconds" -gt 0 ] || seconds=1
 status=0
 unpack_grown
