@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "bench/cli/command.hpp"
 #include "bench/runner/printable.hpp"
 #include "datasets/formats/robot_toml.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::cli {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 using formats::StampHealth;
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 constexpr std::size_t kMaxDefectsShown = 20;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
@@ -40,7 +39,7 @@ Json stamps_json(const StampHealth& stamps) {
 Json lidar_json(const formats::LidarHealth& lidar) {
   return {{"min_beams", lidar.min_beams},
           {"max_beams", lidar.max_beams},
-          {"field_of_view_deg", lidar.field_of_view_rad * kDegreesPerRadian},
+          {"field_of_view_deg", lidar.field_of_view_rad * kDegPerRad},
           {"invalid_ratio", lidar.invalid_ratio},
           {"min_range_m", lidar.min_range_m},
           {"median_range_m", lidar.median_range_m},
@@ -52,7 +51,7 @@ Json lidar_json(const formats::LidarHealth& lidar) {
 Json wheels_json(const formats::WheelHealth& wheels) {
   return {{"has_ticks", wheels.has_ticks},
           {"path_m", wheels.path_m},
-          {"turn_deg", wheels.turn_rad * kDegreesPerRadian},
+          {"turn_deg", wheels.turn_rad * kDegPerRad},
           {"max_speed_mps", wheels.max_speed_mps},
           {"max_speed_at", text_or_null(wheels.max_speed_at)},
           {"max_yaw_rate_radps", wheels.max_yaw_rate_radps},
@@ -62,7 +61,7 @@ Json wheels_json(const formats::WheelHealth& wheels) {
 
 Json imu_json(const formats::ImuHealth& imu) {
   const auto degrees = [](const std::optional<double>& angle_rad) {
-    return angle_rad ? Json(*angle_rad * kDegreesPerRadian) : Json(nullptr);
+    return angle_rad ? Json(*angle_rad * kDegPerRad) : Json(nullptr);
   };
   return {{"max_gyro_radps", imu.max_gyro_radps},
           {"max_gyro_at", text_or_null(imu.max_gyro_at)},
@@ -129,14 +128,14 @@ std::string sensor_lines(const LogReport& report) {
         lidar->min_beams == lidar->max_beams
             ? std::to_string(lidar->max_beams)
             : fmt::format("{} to {}", lidar->min_beams, lidar->max_beams),
-        lidar->field_of_view_rad * kDegreesPerRadian, 100 * lidar->invalid_ratio,
-        lidar->min_range_m, lidar->max_range_m, lidar->median_range_m, lidar->range_limit_m);
+        lidar->field_of_view_rad * kDegPerRad, 100 * lidar->invalid_ratio, lidar->min_range_m,
+        lidar->max_range_m, lidar->median_range_m, lidar->range_limit_m);
   }
   if (const auto& wheels = health.wheels) {
     text += fmt::format(
         "wheels: {} m, turns of {:.1f} deg in all, at most {:.3f} m/s and {:.3f} rad/s, {} jumps, "
         "{}\n",
-        number_text(wheels->path_m), wheels->turn_rad * kDegreesPerRadian, wheels->max_speed_mps,
+        number_text(wheels->path_m), wheels->turn_rad * kDegPerRad, wheels->max_speed_mps,
         wheels->max_yaw_rate_radps, wheels->num_jumps,
         wheels->has_ticks ? "with ticks" : "poses only");
   }
@@ -145,8 +144,7 @@ std::string sensor_lines(const LogReport& report) {
                         imu->max_gyro_radps, imu->median_accel_x_mps2, imu->median_accel_y_mps2);
     if (imu->gyro_turn_rad && imu->wheel_turn_rad) {
       text += fmt::format(", gyro turns {:.1f} deg where the wheels turn {:.1f} deg",
-                          *imu->gyro_turn_rad * kDegreesPerRadian,
-                          *imu->wheel_turn_rad * kDegreesPerRadian);
+                          *imu->gyro_turn_rad * kDegPerRad, *imu->wheel_turn_rad * kDegPerRad);
     }
     text += "\n";
   }

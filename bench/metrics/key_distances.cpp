@@ -4,17 +4,16 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/metrics/wall_survey.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::metrics {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 // Below this sine two lines do not cross anywhere near.
 constexpr double kMinCrossingSine = 0.1;
 // Steps of the numerical derivatives: quantities are nearly linear in both over such steps.

@@ -2,16 +2,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "bench/metrics/association.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::metrics {
-namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 PoseErrors relation_errors(const Trajectory& estimate, std::span<const formats::Relation> relations,
                            double max_dt_s) {

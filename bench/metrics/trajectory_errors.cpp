@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bench/statistics/quantiles.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::metrics {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr double kRelativePath_m = 1;
 
 void append_error(const Pose2& error, PoseErrors& errors) {

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "datasets/formats/median.hpp"
 #include "datasets/formats/robot_toml.hpp"
 
 namespace corridor::formats {
@@ -42,9 +43,7 @@ const LaserScan* first_scan(const ParsedLog& log) {
 double median_duration_s(ParsedLog& log) {
   std::vector<double> durations_s;
   for_each_scan(log, [&](const LaserScan& scan) { durations_s.push_back(scan.duration_s); });
-  const auto middle = durations_s.begin() + static_cast<std::ptrdiff_t>(durations_s.size() / 2);
-  std::nth_element(durations_s.begin(), middle, durations_s.end());
-  return *middle;
+  return upper_median(std::move(durations_s));
 }
 
 // The log's own model, or the caller's; `states` tells what was said explicitly.

@@ -6,8 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "datasets/formats/log_suspicions.hpp"
+#include "datasets/formats/median.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -23,10 +25,7 @@ constexpr std::int64_t kNearTruth_ns = 10'000'000;
 // 0 for nothing; of an even number the upper of the two in the middle.
 template <class T>
 double median_of(std::vector<T> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
+  return values.empty() ? 0 : static_cast<double>(upper_median(std::move(values)));
 }
 
 // A reading and its index among the events.

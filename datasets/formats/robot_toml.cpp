@@ -1,18 +1,16 @@
 #include "datasets/formats/robot_toml.hpp"
+#include "slam/core/units.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <vector>
 
 namespace corridor::formats {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 std::string one_line(const std::vector<std::string>& lines) {
   return fmt::format("{}", fmt::join(lines, "; "));

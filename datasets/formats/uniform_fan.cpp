@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "datasets/formats/median.hpp"
 #include "slam/core/pose2.hpp"
 
 namespace corridor::formats {
@@ -18,12 +20,6 @@ constexpr double kMaxStep_rad = 0.2;
 // A step this much longer than the median has lost a beam.
 constexpr double kRegular_ratio = 1.5;
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double wrap_to_turn(double angle_rad) {
   const double rest_rad = std::fmod(angle_rad, kFullTurn_rad);
   return rest_rad < 0 ? rest_rad + kFullTurn_rad : rest_rad;
@@ -31,8 +27,8 @@ double wrap_to_turn(double angle_rad) {
 
 // Angles come in units of the sensor, and so does their median; the mean of the regular steps is
 // finer.
-double regular_step_rad(std::vector<double>& steps_rad) {
-  const double longest_rad = kRegular_ratio * median(steps_rad);
+double regular_step_rad(const std::vector<double>& steps_rad) {
+  const double longest_rad = kRegular_ratio * upper_median(steps_rad);
   double sum_rad = 0;
   std::size_t count = 0;
   for (const double step_rad : steps_rad) {
@@ -50,7 +46,7 @@ double median_angle_rad(const std::vector<double>& angles_rad) {
   for (const double angle_rad : angles_rad) {
     differences_rad.push_back(wrap_angle(angle_rad - angles_rad.front()));
   }
-  return wrap_angle(angles_rad.front() + median(differences_rad));
+  return wrap_angle(angles_rad.front() + upper_median(std::move(differences_rad)));
 }
 
 // y = at_zero + slope * x.

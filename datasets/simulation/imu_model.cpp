@@ -1,15 +1,10 @@
 #include "datasets/simulation/imu_model.hpp"
+#include "slam/core/units.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace corridor::simulation {
-namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-constexpr double kGravity_mps2 = 9.80665;
-
-}  // namespace
+namespace {}  // namespace
 
 ImuErrors draw_imu_errors(const ImuParams& params, const Rng& rng) {
   Rng bias = rng.stream("bias");

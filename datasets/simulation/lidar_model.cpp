@@ -1,17 +1,16 @@
 #include "datasets/simulation/lidar_model.hpp"
+#include "slam/core/units.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace corridor::simulation {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr std::size_t kRaysAcross = 5;  // of a beam with a width, from edge to edge
 constexpr double kDepthGap_m = 0.1;     // less in depth does not part what a beam meets
 constexpr int kMaxHalvings = 10;        // between two rays, in search of a gap

@@ -1,4 +1,5 @@
 #include "datasets/simulation/observability.hpp"
+#include "slam/core/units.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -7,7 +8,7 @@
 namespace corridor::simulation {
 namespace {
 
-constexpr double kSameDirection_rad = std::numbers::pi / 180;
+constexpr double kSameDirection_rad = kRadPerDeg;
 
 // Directions are lines: pi apart is the same.
 double line_angle_between(double first_rad, double second_rad) {

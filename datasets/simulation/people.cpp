@@ -1,6 +1,5 @@
 #include "datasets/simulation/people.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "datasets/simulation/surfaces.hpp"

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "datasets/simulation/scenario_params.hpp"

@@ -6,13 +6,13 @@
 
 #include "datasets/simulation/route.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 // A drive may take this many times the time of its straight path, plus the constant.
 constexpr double kPatience = 10;
 constexpr double kPatience_s = 60;

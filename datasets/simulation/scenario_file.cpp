@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "datasets/formats/maps/ros_map.hpp"
 #include "datasets/simulation/scenario_sections.hpp"
 #include "datasets/simulation/toml_input.hpp"

@@ -1,19 +1,16 @@
 #include "datasets/simulation/scenario_params.hpp"
+#include "slam/core/units.hpp"
 
 #include <fmt/format.h>
-
-#include <numbers>
 
 namespace corridor::simulation {
 
 WorldParams to_params(const CorridorShape& shape) {
-  return {shape.a_m, shape.b_m, shape.c_m, shape.alpha_rad / (std::numbers::pi / 180),
-          shape.doors_every_m};
+  return {shape.a_m, shape.b_m, shape.c_m, shape.alpha_rad / kRadPerDeg, shape.doors_every_m};
 }
 
 CorridorShape to_shape(const WorldParams& params) {
-  return {params.a_m, params.b_m, params.c_m, params.alpha_deg * (std::numbers::pi / 180),
-          params.doors_every_m};
+  return {params.a_m, params.b_m, params.c_m, params.alpha_deg * kRadPerDeg, params.doors_every_m};
 }
 
 std::vector<std::string> DriveParams::relations() const {

@@ -1,4 +1,5 @@
 #include "datasets/simulation/sensor_params.hpp"
+#include "slam/core/units.hpp"
 
 #include <fmt/format.h>
 
@@ -30,7 +31,7 @@ std::vector<std::string> LidarParams::relations() const {
 }
 
 Pose2 T_base_lidar(const LidarParams& params) {
-  return {params.x_m, params.y_m, params.yaw_deg * (std::numbers::pi / 180)};
+  return {params.x_m, params.y_m, params.yaw_deg * kRadPerDeg};
 }
 
 double stated_range_sigma_m(const LidarParams& params) {

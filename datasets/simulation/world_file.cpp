@@ -2,18 +2,17 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <numbers>
 
 #include "datasets/simulation/scenario_params.hpp"
 #include "datasets/simulation/toml_input.hpp"
 #include "datasets/simulation/world_table.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr std::size_t kMaxMaterials = 255;
 
 struct ArcRow {

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "datasets/formats/clock_line.hpp"
 #include "datasets/formats/lcm/lcm.hpp"
 #include "datasets/formats/lcm/mbot_log.hpp"
+#include "datasets/formats/median.hpp"
 #include "datasets/formats/sensor_merge.hpp"
 #include "datasets/formats/tick_odometry.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::formats {
 namespace {
 
-constexpr double kGravity_mps2 = 9.80665;
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kMicrosecondsPerSecond = 1e6;
 constexpr std::int64_t kNanosecondsPerMicrosecond = 1000;
 // Sensors on one clock are logged within milliseconds of each other; more says two clocks.
@@ -41,17 +41,13 @@ std::int64_t median_delay_us(const std::vector<Received<T>>& list) {
   std::vector<std::int64_t> delays_us;
   delays_us.reserve(list.size());
   for (const auto& received : list) delays_us.push_back(received.utime_us - stamp_us(received));
-  const auto middle = delays_us.begin() + static_cast<std::ptrdiff_t>(delays_us.size() / 2);
-  std::nth_element(delays_us.begin(), middle, delays_us.end());
-  return *middle;
+  return upper_median(std::move(delays_us));
 }
 
 std::size_t median_num_beams(const std::vector<Sweep>& sweeps) {
   std::vector<std::size_t> counts;
   for (const Sweep& sweep : sweeps) counts.push_back(sweep.ranges_m.size());
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  return *middle;
+  return upper_median(std::move(counts));
 }
 
 class LcmAssembler {
@@ -145,11 +141,10 @@ class LcmAssembler {
     for (const auto& imu : in_.imu) {
       z_g.push_back(imu.message.accel_lsb[2] / options_.raw.accel_lsb_per_g);
     }
-    const auto middle = z_g.begin() + static_cast<std::ptrdiff_t>(z_g.size() / 2);
-    std::nth_element(z_g.begin(), middle, z_g.end());
-    if (std::abs(*middle - 1) <= kMaxGravityError_ratio) return {};
+    const double median_g = upper_median(std::move(z_g));
+    if (std::abs(median_g - 1) <= kMaxGravityError_ratio) return {};
     return failure(in_.imu.front().begin,
-                   fmt::format("the accelerometer's z reads {:.3f} g at the median", *middle),
+                   fmt::format("the accelerometer's z reads {:.3f} g at the median", median_g),
                    "1 g within 20 % (z upward, raw.accel_lsb_per_g)");
   }
 

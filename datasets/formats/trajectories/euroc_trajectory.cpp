@@ -35,6 +35,34 @@ std::vector<std::string_view> split_at_commas(std::string_view line) {
   return fields;
 }
 
+struct EurocState {
+  Timestamp stamp;
+  Pose2 T_map_base;
+  double z_m = 0;
+};
+
+Result<EurocState> parse_state(const std::vector<std::string_view>& fields,
+                               const std::string& where) {
+  if (fields.size() != kNumFields && fields.size() != kNumGroundTruthFields) {
+    return fail(ErrorCode::kMalformed, fmt::format("{} fields", fields.size()), where,
+                "8 (or 17): 'ns,tx,ty,tz,qw,qx,qy,qz'");
+  }
+  const auto stamp_ns = parse_integer(fields[0]);
+  if (!stamp_ns || *stamp_ns < -kMaxStamp_ns || *stamp_ns > kMaxStamp_ns) {
+    return fail(ErrorCode::kMalformed, "stamp " + quote(fields[0]), where,
+                fmt::format("whole nanoseconds, at most {}", kMaxStamp_ns));
+  }
+  std::array<double, kNumGroundTruthFields - 1> numbers{};
+  if (auto good = parse_finite(std::span(fields).subspan(1), where, numbers); !good) {
+    return tl::make_unexpected(good.error());
+  }
+  const auto [x_m, y_m, z_m, qw, qx, qy, qz] = std::to_array(
+      {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]});
+  const auto yaw_rad = yaw_of_quaternion(qx, qy, qz, qw, where);
+  if (!yaw_rad) return tl::make_unexpected(yaw_rad.error());
+  return EurocState{Timestamp{*stamp_ns}, Pose2(x_m, y_m, *yaw_rad), z_m};
+}
+
 }  // namespace
 
 Result<ReadTrajectory> parse_euroc(std::string_view text, const std::string& name) {
@@ -49,27 +77,11 @@ Result<ReadTrajectory> parse_euroc(std::string_view text, const std::string& nam
     const std::string_view first = take_field(rest);
     if (first.empty() || first.front() == '#') continue;
     const auto fields = split_at_commas(*line);
-    if (fields.size() != kNumFields && fields.size() != kNumGroundTruthFields) {
-      return fail(ErrorCode::kMalformed, fmt::format("{} fields", fields.size()), where,
-                  "8 (or 17): 'ns,tx,ty,tz,qw,qx,qy,qz'");
-    }
-    const auto stamp_ns = parse_integer(fields[0]);
-    if (!stamp_ns || *stamp_ns < -kMaxStamp_ns || *stamp_ns > kMaxStamp_ns) {
-      return fail(ErrorCode::kMalformed, "stamp " + quote(fields[0]), where,
-                  fmt::format("whole nanoseconds, at most {}", kMaxStamp_ns));
-    }
-    std::array<double, kNumGroundTruthFields - 1> numbers{};
-    if (auto good = parse_finite(std::span(fields).subspan(1), where, numbers); !good) {
-      return tl::make_unexpected(good.error());
-    }
-    const auto [x_m, y_m, z_m, qw, qx, qy, qz] = std::to_array(
-        {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], numbers[6]});
-    const auto yaw_rad = yaw_of_quaternion(qx, qy, qz, qw, where);
-    if (!yaw_rad) return tl::make_unexpected(yaw_rad.error());
-    auto appended = append_pose(read.trajectory, Timestamp{*stamp_ns}, Pose2(x_m, y_m, *yaw_rad),
-                                fields[0], where);
+    const auto state = parse_state(fields, where);
+    if (!state) return tl::make_unexpected(state.error());
+    auto appended = append_pose(read.trajectory, state->stamp, state->T_map_base, fields[0], where);
     if (!appended) return tl::make_unexpected(appended.error());
-    if (z_m != 0) ++num_raised;
+    if (state->z_m != 0) ++num_raised;
     if (fields.size() == kNumGroundTruthFields) ++num_states;
   }
   if (num_raised > 0) read.notes.push_back(fmt::format("{} heights left out", num_raised));

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "datasets/formats/median.hpp"
 #include "datasets/formats/text.hpp"
 
 namespace corridor::formats {
@@ -61,10 +62,9 @@ Result<void> check_stamp_unit(const Trajectory& trajectory, const std::string& n
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     steps_s.push_back(seconds_between(trajectory[i - 1].stamp, trajectory[i].stamp));
   }
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  if (*middle >= kMinMedianStep_s && *middle <= kMaxMedianStep_s) return {};
-  return fail(ErrorCode::kInvalid, fmt::format("median step between stamps is {:.6g} s", *middle),
+  const double median_s = upper_median(std::move(steps_s));
+  if (median_s >= kMinMedianStep_s && median_s <= kMaxMedianStep_s) return {};
+  return fail(ErrorCode::kInvalid, fmt::format("median step between stamps is {:.6g} s", median_s),
               name,
               fmt::format("stamps in {}: steps of {:g} s to {:g} s", unit, kMinMedianStep_s,
                           kMaxMedianStep_s));

@@ -2,7 +2,6 @@
 // stamps in the format's unit. Internal to this folder.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <string_view>
