@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 // MRPT's serialization headers must precede those of the classes.
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
+#include <mrpt/serialization/archiveFrom_std_streams.h>
 
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <numbers>
+#include <sstream>
 
 #include "datasets/formats/rawlog/rawlog.hpp"
 #include "datasets/formats/robot_toml.hpp"
@@ -108,15 +108,13 @@ class RawlogWriter {
     archive_ << out;
   }
 
-  std::string bytes() {
-    return {static_cast<const char*>(stream_.getRawBufferData()),
-            static_cast<std::size_t>(stream_.getTotalBytesCount())};
-  }
+  std::string bytes() const { return stream_.str(); }
 
  private:
   const RobotModel& robot_;
-  mrpt::io::CMemoryStream stream_;
-  mrpt::serialization::CArchiveStreamBase<mrpt::io::CMemoryStream> archive_{stream_};
+  // MRPT's own CMemoryStream grows by a page at a time and copies everything each time.
+  std::ostringstream stream_;
+  mrpt::serialization::CArchiveStreamBase<std::ostream> archive_{stream_};
 };
 
 // The calibration as the file's scans will show it.
