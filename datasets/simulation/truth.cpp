@@ -159,8 +159,8 @@ void take_rows(toml::table& document, std::string_view section, std::string_view
 }
 
 void sort_by_begin(auto& intervals) {
-  std::sort(intervals.begin(), intervals.end(),
-            [](const auto& a, const auto& b) { return a.begin_s < b.begin_s; });
+  std::stable_sort(intervals.begin(), intervals.end(),
+                   [](const auto& a, const auto& b) { return a.begin_s < b.begin_s; });
 }
 
 template <class Table>
@@ -173,6 +173,25 @@ Table read_section(const toml::table& document, std::string_view section,
     problems.push_back({0, fmt::format("no table [{}]; expected one", section)});
   }
   return values;
+}
+
+// The lists of the document, taken out of it.
+void take_lists(toml::table& document, SimulationTruth& truth, std::vector<TomlProblem>& problems) {
+  const toml::table* lidar_table = document.get_as<toml::table>("lidar");
+  if (lidar_table != nullptr && lidar_table->contains("degenerate")) {
+    truth.degenerate.emplace();
+    take_rows<DegenerateRow>(document, "lidar", "degenerate", *truth.degenerate, problems);
+    take_rows<BlindRow>(document, "lidar", "blind", *truth.degenerate, problems);
+    sort_by_begin(*truth.degenerate);
+  }
+  take_rows<BiasRow>(document, "imu", "bias", truth.imu_bias, problems);
+  take_rows<SlipRow>(document, "wheels", "slips", truth.slips, problems);
+  const std::size_t num_events = truth.slips.size();
+  take_rows<SlipRow>(document, "wheels", "grip_slips", truth.slips, problems);
+  for (std::size_t i = num_events; i < truth.slips.size(); ++i) {
+    truth.slips[i].cause = SlipCause::kGrip;
+  }
+  sort_by_begin(truth.slips);
 }
 
 }  // namespace
@@ -205,22 +224,7 @@ Result<SimulationTruth> read_truth(const std::filesystem::path& path) {
   if (!document) return tl::make_unexpected(document.error());
   std::vector<TomlProblem> problems;
   SimulationTruth truth;
-  const toml::table* lidar_table = document->get_as<toml::table>("lidar");
-  if (lidar_table != nullptr && lidar_table->contains("degenerate")) {
-    truth.degenerate.emplace();
-    take_rows<DegenerateRow>(*document, "lidar", "degenerate", *truth.degenerate, problems);
-    take_rows<BlindRow>(*document, "lidar", "blind", *truth.degenerate, problems);
-    sort_by_begin(*truth.degenerate);
-  }
-  take_rows<BiasRow>(*document, "imu", "bias", truth.imu_bias, problems);
-  take_rows<SlipRow>(*document, "wheels", "slips", truth.slips, problems);
-  const std::size_t num_events = truth.slips.size();
-  take_rows<SlipRow>(*document, "wheels", "grip_slips", truth.slips, problems);
-  for (std::size_t i = num_events; i < truth.slips.size(); ++i) {
-    truth.slips[i].cause = SlipCause::kGrip;
-  }
-  sort_by_begin(truth.slips);
-
+  take_lists(*document, truth, problems);
   if (const toml::table* world = document->get_as<toml::table>("world")) {
     truth.world = read_world_table(*world, problems);
   } else {
