@@ -117,45 +117,50 @@ std::string stamp_rows(const formats::LogHealth& health) {
   return text_table(std::move(rows));
 }
 
+std::string line_of(const formats::LidarHealth& lidar) {
+  return fmt::format(
+      "LiDAR: {} beams over {:.1f} deg, {:.1f} % without return, returns at {:.3f} m to {:.3f} m, "
+      "median {:.3f} m, limit {:.3f} m\n",
+      lidar.min_beams == lidar.max_beams
+          ? std::to_string(lidar.max_beams)
+          : fmt::format("{} to {}", lidar.min_beams, lidar.max_beams),
+      lidar.field_of_view_rad * kDegPerRad, 100 * lidar.invalid_ratio, lidar.min_range_m,
+      lidar.max_range_m, lidar.median_range_m, lidar.range_limit_m);
+}
+
+std::string line_of(const formats::WheelHealth& wheels) {
+  return fmt::format(
+      "wheels: {} m, turns of {:.1f} deg in all, at most {:.3f} m/s and {:.3f} rad/s, {} jumps, "
+      "{}\n",
+      number_text(wheels.path_m), wheels.turn_rad * kDegPerRad, wheels.max_speed_mps,
+      wheels.max_yaw_rate_radps, wheels.num_jumps, wheels.has_ticks ? "with ticks" : "poses only");
+}
+
+std::string line_of(const formats::ImuHealth& imu) {
+  std::string text =
+      fmt::format("IMU: at most {:.3f} rad/s, median acceleration ({:.3f}, {:.3f}) m/s2",
+                  imu.max_gyro_radps, imu.median_accel_x_mps2, imu.median_accel_y_mps2);
+  if (imu.gyro_turn_rad && imu.wheel_turn_rad) {
+    text += fmt::format(", gyro turns {:.1f} deg where the wheels turn {:.1f} deg",
+                        *imu.gyro_turn_rad * kDegPerRad, *imu.wheel_turn_rad * kDegPerRad);
+  }
+  return text + "\n";
+}
+
+std::string line_of(const formats::TruthHealth& truth, bool is_reference) {
+  return fmt::format("{}: {} poses, {:.3f} m, {:.1f} % of the scans have one within 10 ms\n",
+                     is_reference ? "reference (no truth)" : "truth", truth.num_poses, truth.path_m,
+                     100 * truth.scans_with_pose_ratio);
+}
+
 std::string sensor_lines(const LogReport& report) {
   const formats::LogHealth& health = *report.health;
   std::string text;
-  if (const auto& lidar = health.lidar) {
-    text += fmt::format(
-        "LiDAR: {} beams over {:.1f} deg, {:.1f} % without return, returns at {:.3f} m to {:.3f} "
-        "m, "
-        "median {:.3f} m, limit {:.3f} m\n",
-        lidar->min_beams == lidar->max_beams
-            ? std::to_string(lidar->max_beams)
-            : fmt::format("{} to {}", lidar->min_beams, lidar->max_beams),
-        lidar->field_of_view_rad * kDegPerRad, 100 * lidar->invalid_ratio, lidar->min_range_m,
-        lidar->max_range_m, lidar->median_range_m, lidar->range_limit_m);
-  }
-  if (const auto& wheels = health.wheels) {
-    text += fmt::format(
-        "wheels: {} m, turns of {:.1f} deg in all, at most {:.3f} m/s and {:.3f} rad/s, {} jumps, "
-        "{}\n",
-        number_text(wheels->path_m), wheels->turn_rad * kDegPerRad, wheels->max_speed_mps,
-        wheels->max_yaw_rate_radps, wheels->num_jumps,
-        wheels->has_ticks ? "with ticks" : "poses only");
-  }
-  if (const auto& imu = health.imu) {
-    text += fmt::format("IMU: at most {:.3f} rad/s, median acceleration ({:.3f}, {:.3f}) m/s2",
-                        imu->max_gyro_radps, imu->median_accel_x_mps2, imu->median_accel_y_mps2);
-    if (imu->gyro_turn_rad && imu->wheel_turn_rad) {
-      text += fmt::format(", gyro turns {:.1f} deg where the wheels turn {:.1f} deg",
-                          *imu->gyro_turn_rad * kDegPerRad, *imu->wheel_turn_rad * kDegPerRad);
-    }
-    text += "\n";
-  }
-  if (const auto& truth = health.truth) {
-    text +=
-        fmt::format("{}: {} poses, {:.3f} m, {:.1f} % of the scans have one within 10 ms\n",
-                    report.log->provenance.is_truth_reference ? "reference (no truth)" : "truth",
-                    truth->num_poses, truth->path_m, 100 * truth->scans_with_pose_ratio);
-  } else {
-    text += "truth: no poses\n";
-  }
+  if (health.lidar) text += line_of(*health.lidar);
+  if (health.wheels) text += line_of(*health.wheels);
+  if (health.imu) text += line_of(*health.imu);
+  text += health.truth ? line_of(*health.truth, report.log->provenance.is_truth_reference)
+                       : "truth: no poses\n";
   if (report.num_relations) text += fmt::format("relations: {}\n", *report.num_relations);
   return text;
 }
