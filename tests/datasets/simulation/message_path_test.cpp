@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "datasets/simulation/simulate.hpp"
@@ -34,14 +33,6 @@ TEST(MessagePath, OffsetIsAddedToEveryStamp) {
   }
 }
 
-TEST(MessagePath, JitterHasTheStatedSigma) {
-  // A tenth of the time between the moments, so that none has to be put in order.
-  const auto delays = delays_s({.time_jitter_s = 0.001}, 0.1, 10000);
-  ASSERT_EQ(delays.size(), 10000u);
-  EXPECT_NEAR(standard_deviation(delays), 0.001, 0.001 * five_sigma(delays.size()));
-  EXPECT_NEAR(mean(delays), 0.1, 5 * 0.001 / std::sqrt(10000.0));
-}
-
 TEST(MessagePath, StampsStayInOrderHoweverLargeTheJitter) {
   MessagePath path({.time_jitter_s = 0.1, .loss_ratio = 0.2}, 0, Rng(3));
   Timestamp last{-1};
@@ -54,11 +45,6 @@ TEST(MessagePath, StampsStayInOrderHoweverLargeTheJitter) {
     last = *stamp;
   }
   EXPECT_GT(num_crowded, 100);
-}
-
-TEST(MessagePath, LosesTheStatedShare) {
-  const double num_arrived = static_cast<double>(delays_s({.loss_ratio = 0.3}, 0, 10000).size());
-  EXPECT_NEAR(num_arrived / 10000, 0.7, 5 * std::sqrt(0.3 * 0.7 / 10000));
 }
 
 TEST(MessagePath, NothingIsStampedBeforeTheLogBegins) {
@@ -83,29 +69,14 @@ TEST(SensorClocks, LidarOffsetMovesItsStampsAndNothingElse) {
   }
 }
 
-TEST(SensorClocks, UnstatedOffsetsHaveTheStatedSpread) {
+TEST(SensorClocks, UnstatedPartOfAnOffsetIsInTheTruthAlone) {
   Scenario scenario;
-  scenario.drive.stays = true;
-  scenario.drive.stand_s = 0.5;
-  scenario.lidar.num_beams = 4;
   scenario.lidar.time_offset_s = 0.1;
   scenario.lidar.time_offset_sigma_s = 0.005;
-  scenario.imu.time_offset_sigma_s = 0.002;
-  std::vector<double> lidar_s, imu_s;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-    const Simulated simulated = simulated_log(scenario, seed);
-    EXPECT_EQ(simulated.log.robot.lidar.time_offset_s, 0.1);  // the log does not know the rest
-    const Timestamp last_scan = (*simulated.log.truth)[simulated.log.truth->size() - 1].stamp;
-    lidar_s.push_back(to_seconds(last_scan) - 0.5);
-    Timestamp last_imu;
-    for (const SensorEvent& event : simulated.log.events) {
-      if (std::holds_alternative<ImuSample>(event)) last_imu = stamp_of(event);
-    }
-    imu_s.push_back(to_seconds(last_imu) - 0.5);
-  }
-  EXPECT_NEAR(mean(lidar_s), 0.1, 5 * 0.005 / std::sqrt(1000.0));
-  EXPECT_NEAR(standard_deviation(lidar_s), 0.005, 0.005 * five_sigma(lidar_s.size()));
-  EXPECT_NEAR(standard_deviation(imu_s), 0.002, 0.002 * five_sigma(imu_s.size()));
+  const Simulated simulated = simulated_log(scenario, 2);
+  EXPECT_EQ(simulated.log.robot.lidar.time_offset_s, 0.1);
+  EXPECT_NE(simulated.truth.lidar_time_offset_s, 0.1);
+  EXPECT_NEAR(simulated.truth.lidar_time_offset_s, 0.1, 5 * 0.005);
 }
 
 // Ticks count on while messages are lost: those that arrive are those of a log without losses.
