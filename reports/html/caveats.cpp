@@ -115,8 +115,8 @@ void append_sensors(const Cases& cases, std::vector<std::string>& sentences) {
   if (is_simulated(cases)) {
     sentences.emplace_back(
         "Simulator and estimators share the form of their error models (constant wheel scale, "
-        "constant bias, white noise): systems that estimate these are favoured over what a real "
-        "robot would give them.");
+        "white noise and, where a scenario states no drift, constant biases): systems that "
+        "estimate these are favoured over what a real robot would give them.");
   }
 }
 
