@@ -18,6 +18,7 @@ FusionParams fusion_paper_params() {
   params.use_statistical_slip_test = false;
   params.use_submaps = false;
   params.use_wheel_scale = false;
+  params.use_majority_vote = false;
   params.use_loop_closing = false;
   params.hold_unseen_passes = 0;
   return params;

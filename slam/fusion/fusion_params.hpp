@@ -19,6 +19,7 @@ struct FusionParams {
   bool use_statistical_slip_test = true;   // false: the paper's fixed threshold
   bool use_submaps = true;                 // false: match against the last key scan only
   bool use_wheel_scale = true;             // estimate the wheels' common scale error
+  bool use_majority_vote = true;           // LiDAR out where wheels and IMU both contradict it
   bool use_loop_closing = true;
 
   double key_distance_m = 0.2;
@@ -53,6 +54,7 @@ struct FusionParams {
   double match_prior_sigma_m = 0.1;  // least width of the prediction while matching
   double match_prior_sigma_rad = 0.05;
   int hold_unseen_passes = 2;  // further matches, held at the prediction where the last saw nothing
+  double vote_gate = 9.0;  // chi-square with 1 degree of freedom, of wheels and IMU each: 3 sigma
   double jump_inlier_ratio = 0.8;  // a match that contradicts the prediction must explain this much
   double retry_inlier_ratio = 0.7;  // fewer explained points: search the window
   double retry_window_m = 0.8;
@@ -105,6 +107,9 @@ void FusionParams::visit_structure(FusionParams& p, V& v) {
   v(I{"use_submaps", "", "match against a submap; false: against the last key scan"},
     p.use_submaps);
   v(I{"use_wheel_scale", "", "estimate the common scale error of the wheels"}, p.use_wheel_scale);
+  v(I{"use_majority_vote", "",
+      "leave the LiDAR out along directions in which wheels and IMU both contradict it"},
+    p.use_majority_vote);
   v(I{"use_loop_closing", "", "search for and add loop closures"}, p.use_loop_closing);
   v(I{"key_distance_m", "m", "travel between key scans", 0.01, 10}, p.key_distance_m);
   v(I{"key_angle_rad", "rad", "turn between key scans", 0.01, 3.2}, p.key_angle_rad);
@@ -173,6 +178,9 @@ void FusionParams::visit_tracking(FusionParams& p, V& v) {
   v(I{"hold_unseen_passes", "1",
       "further matches, each held at the prediction along what the last did not see", 0, 10},
     p.hold_unseen_passes);
+  v(I{"vote_gate", "1", "chi-square along a direction beyond which a sensor contradicts the LiDAR",
+      1, 1e4},
+    p.vote_gate);
   v(I{"jump_inlier_ratio", "1",
       "smallest share of explained points of a match that contradicts the prediction", 0, 1},
     p.jump_inlier_ratio);

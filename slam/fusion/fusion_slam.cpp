@@ -115,7 +115,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     state.wheel_noise_factor = wheel_noise_.factor();
     state.twist = twist_;
     if (!key_scans_.empty()) state.wheel_scale = estimate().wheel_scale(0);
-    if (is_velocity_known_) state.velocity_mps = velocity_base_mps();
+    if (is_velocity_known_) {
+      state.velocity_mps = velocity_base_mps();
+      state.velocity_variance_m2ps2 = velocity_variance_m2ps2(
+          params_.velocity_sigma_mps, seconds_between(anchor_stamp_, stamp), robot_.imu, params_);
+    }
     return predictor_.predict(stamp, state);
   }
 
@@ -168,6 +172,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     T_map_base_ = T_map_submap * tracked.T_submap_base;
     path_m_ += T_last_now.translation_m().norm();
     twist_ = T_last_now.log() / seconds_between(last_scan_stamp_, stamp);
+    num_outvoted_ += tracked.num_outvoted;
     watch_wheels(tracked);
     return tracked;
   }
@@ -295,6 +300,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     counters["loop_closures_removed"] = loop_edges_.num_removed();
     counters["slip_intervals"] = num_slips_;
     counters["degenerate_intervals"] = num_degenerate_;
+    counters["outvoted_directions"] = num_outvoted_;
     counters["least_bad_kept"] = num_least_bad_;
     counters["wheel_noise_factor"] = wheel_noise_.factor();
     counters["wheel_scale"] = estimate().wheel_scale(0);
@@ -327,6 +333,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   IntervalVerdict verdict_;
   backend::BackEndReport last_report_;
   int num_slips_ = 0, num_degenerate_ = 0, num_least_bad_ = 0, num_failed_solves_ = 0;
+  int num_outvoted_ = 0;
   std::int64_t num_relinearized_ = 0;
 };
 

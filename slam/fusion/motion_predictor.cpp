@@ -1,5 +1,7 @@
 #include "slam/fusion/motion_predictor.hpp"
 
+#include <cmath>
+
 #include "slam/fusion/sensor_health.hpp"
 
 namespace corridor::fusion {
@@ -11,6 +13,10 @@ constexpr double kUnknownRotation_rad = 0.2;
 // Error of the gyro's rotation between two scans beside its noise: bias and scale.
 constexpr double kGyroFloor_rad = 5e-4;
 constexpr double kGyroScaleRatio = 0.01;
+
+double gyro_sigma_rad(double turn_rad) {
+  return kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad);
+}
 
 }  // namespace
 
@@ -31,6 +37,17 @@ Pose2 MotionPredictor::motion_without_wheels(Timestamp stamp, const MotionState&
   return last_stamp_ ? Pose2::exp(state.twist * seconds_between(*last_stamp_, stamp)) : Pose2();
 }
 
+std::optional<MotionEstimate> MotionPredictor::by_imu(Timestamp stamp,
+                                                      const MotionState& state) const {
+  const bool is_known = has_imu() && state.velocity_mps && imu_.delta().unmeasured_s == 0;
+  if (!is_known || !last_stamp_) return std::nullopt;
+  const Pose2 motion = motion_without_wheels(stamp, state);
+  const WheelNoise noise{
+      std::sqrt(state.velocity_variance_m2ps2) * seconds_between(*last_stamp_, stamp),
+      gyro_sigma_rad(motion.theta_rad())};
+  return MotionEstimate{motion, noise.covariance()};
+}
+
 Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
   imu_.advance_to(stamp);
   Prediction prediction;
@@ -45,15 +62,17 @@ Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
     noise.rotation_sigma_rad *= state.wheel_noise_factor;
     motion = {(1 + state.wheel_scale) * measured.x_m(), (1 + state.wheel_scale) * measured.y_m(),
               measured.theta_rad()};
+    prediction.by_wheels = MotionEstimate{motion, noise.covariance()};
   } else {
     motion = motion_without_wheels(stamp, state);
   }
   if (has_imu() && is_gyro_whole()) {
     prediction.is_turn_by_gyro = true;
     const double turn_rad = imu_.delta().theta_rad - last_imu_delta_.theta_rad;
-    noise.rotation_sigma_rad = kGyroFloor_rad + kGyroScaleRatio * std::abs(turn_rad);
+    noise.rotation_sigma_rad = gyro_sigma_rad(turn_rad);
     motion = {motion.x_m(), motion.y_m(), turn_rad};
   }
+  prediction.by_imu = by_imu(stamp, state);
   last_imu_delta_ = imu_.delta();
   last_wheel_T_odom_base_ = wheel_pose;
   last_stamp_ = stamp;

@@ -15,12 +15,21 @@
 
 namespace corridor::fusion {
 
+struct MotionEstimate {
+  Pose2 T_last_now;
+  Eigen::Matrix3d covariance;  // 3x3, order (x_m, y_m, theta_rad), base now
+};
+
 struct Prediction {
   Pose2 T_last_now;  // motion of the base since the last scan
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  // 3x3, order (x_m, y_m, theta_rad), base now
   bool has_wheels = false;
   bool is_turn_by_gyro = false;
+  // The same motion by the wheels alone, turn included, and by the IMU alone, from the estimated
+  // velocity on: two that share nothing. The second is unknown while the velocity is, and where a
+  // part of the motion went by without a reading.
+  std::optional<MotionEstimate> by_wheels, by_imu;
 };
 
 // What the estimator knows when it asks for a prediction.
@@ -29,6 +38,7 @@ struct MotionState {
   double wheel_noise_factor = 1;  // on the wheels' standard deviations
   // Of the base where the key interval began, in the base frame there; none while unknown.
   std::optional<Eigen::Vector2d> velocity_mps;
+  double velocity_variance_m2ps2 = 0;  // of each component
   // Mean motion between the last two scans per second, (m/s, m/s, rad/s), base frame.
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
 };
@@ -58,6 +68,8 @@ class MotionPredictor {
   [[nodiscard]] bool is_gyro_whole() const {
     return imu_.delta().unmeasured_s == last_imu_delta_.unmeasured_s;
   }
+  [[nodiscard]] std::optional<MotionEstimate> by_imu(Timestamp stamp,
+                                                     const MotionState& state) const;
   // By IMU and velocity or by the last twist, whichever there is.
   [[nodiscard]] Pose2 motion_without_wheels(Timestamp stamp, const MotionState& state) const;
   [[nodiscard]] Pose2 imu_motion(const motion::ImuDelta& since_begin,

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "slam/fusion/majority_vote.hpp"
+
 namespace corridor::fusion {
 namespace {
 
@@ -70,7 +72,9 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
     match = held;
   }
   if (!match.is_usable()) return tracked;
-  tracked.match = matching::observable_part(match, params.observability);
+  const matching::ObservableMatch seen = matching::observable_part(match, params.observability);
+  tracked.match = put_to_vote(seen, T_submap_last, prediction, params);
+  tracked.num_outvoted = seen.num_observable - tracked.match->num_observable;
   // The pose at the last scan came from a match of the same kind: its error counts too.
   Eigen::Vector3d last_match(params.observability.translation_floor_m,
                              params.observability.translation_floor_m,

@@ -21,6 +21,7 @@ struct TrackedScan {
   // and their number; without the turn where that came from the gyro. Only with wheels.
   std::optional<double> wheel_chi2;
   int wheel_degrees_of_freedom = 0;
+  int num_outvoted = 0;     // directions of the match that wheels and IMU both contradict
   bool is_refused = false;  // it contradicted the prediction and explained too little of the scan
 };
 

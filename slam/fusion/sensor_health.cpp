@@ -71,6 +71,14 @@ double range_difference_floor_m(double range_sigma_m) {
   return 2 * range_sigma_m / std::sqrt(std::numbers::pi);
 }
 
+double velocity_variance_m2ps2(double velocity_sigma_mps, double anchor_age_s,
+                               const ImuModel& imu_model, const FusionParams& params) {
+  const double walk_mps2_sqrt_s = imu_model.accel_noise_mps2 / std::sqrt(imu_model.rate_hz);
+  const double bias_error_mps2 = 0.1 * params.accel_bias_sigma_mps2;
+  return square(velocity_sigma_mps) + square(walk_mps2_sqrt_s) * anchor_age_s +
+         square(bias_error_mps2 * anchor_age_s);
+}
+
 SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
                    const motion::ImuDelta& imu, const Eigen::Vector2d& velocity_base_mps,
                    double velocity_sigma_mps, double anchor_age_s, const ImuModel& imu_model,
@@ -84,12 +92,8 @@ SlipTest test_slip(const Pose2& scaled_wheel_T_i_j, const WheelNoise& noise,
     test.is_slip = test.measure_over_threshold > 1;
     return test;
   }
-  // Since the last anchor the velocity has walked with the accelerometer's noise and bias error.
-  const double walk_mps2_sqrt_s = imu_model.accel_noise_mps2 / std::sqrt(imu_model.rate_hz);
-  const double bias_error_mps2 = 0.1 * params.accel_bias_sigma_mps2;
-  const double velocity_variance = square(velocity_sigma_mps) +
-                                   square(walk_mps2_sqrt_s) * anchor_age_s +
-                                   square(bias_error_mps2 * anchor_age_s);
+  const double velocity_variance =
+      velocity_variance_m2ps2(velocity_sigma_mps, anchor_age_s, imu_model, params);
   const double variance = square(noise.translation_sigma_m) + velocity_variance * dt * dt;
   const Eigen::Matrix2d covariance =
       imu.covariance.bottomRightCorner<2, 2>() + variance * Eigen::Matrix2d::Identity();

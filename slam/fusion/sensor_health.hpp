@@ -38,6 +38,11 @@ std::optional<double> mean_range_difference_m(const LaserScan& earlier, const La
 // Expectation of that difference for an unchanged view: E|a - b| = 2 sigma / sqrt(pi).
 double range_difference_floor_m(double range_sigma_m);
 
+// Of each component of the estimated velocity: since wheels or LiDAR last fixed it, anchor_age_s
+// ago, it has walked with the accelerometer's noise and bias error.
+double velocity_variance_m2ps2(double velocity_sigma_mps, double anchor_age_s,
+                               const ImuModel& imu_model, const FusionParams& params);
+
 struct SlipTest {
   double measure_over_threshold = 0;
   bool is_slip = false;

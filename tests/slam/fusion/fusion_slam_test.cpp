@@ -12,10 +12,11 @@
 namespace corridor::fusion {
 namespace {
 
-SensorLog corridor_log(const std::string& scenario_name, std::uint64_t seed) {
-  const auto scenario = simulation::read_scenario(std::string(CORRIDOR_SOURCE_DIR) +
-                                                  "/datasets/scenarios/" + scenario_name + ".toml");
+SensorLog corridor_log(const std::string& scenario_name, std::uint64_t seed, int num_people = 0) {
+  auto scenario = simulation::read_scenario(std::string(CORRIDOR_SOURCE_DIR) +
+                                            "/datasets/scenarios/" + scenario_name + ".toml");
   EXPECT_TRUE(scenario.has_value());
+  scenario->people.num_people = num_people;
   return simulation::simulate(*scenario, seed).value().log;
 }
 
@@ -90,6 +91,24 @@ TEST(FusionSlam, KeepsTheCorridorsLengthWhereScanMatchingCannotSeeIt) {
   EXPECT_GT(result.num_degenerate, 100);
   ASSERT_TRUE(result.estimate.map.has_value());
   EXPECT_FALSE(result.estimate.map->empty());
+}
+
+// Without the vote of wheels and IMU these worlds end 3 to 35 m off.
+TEST(FusionSlam, PeopleWhoWalkInTheCorridorDoNotDragTheRobot) {
+  for (const int num_people : {1, 6}) {
+    for (const std::uint64_t seed : {5, 7}) {
+      const SensorLog log = corridor_log("paper-corridor", seed, num_people);
+      const Outcome result = run({}, log);
+      EXPECT_LT(position_rmse_m(result.estimate.trajectory, *log.truth), kCorridorTolerance_m)
+          << num_people << " people, seed " << seed;
+      EXPECT_GT(result.estimate.counters.at("outvoted_directions"), 5);
+    }
+  }
+}
+
+TEST(FusionSlam, InAnEmptyCorridorTheLidarIsNotOutvoted) {
+  const Outcome result = run({}, corridor_log("paper-corridor", 5));
+  EXPECT_EQ(result.estimate.counters.at("outvoted_directions"), 0);
 }
 
 TEST(FusionSlam, NoticesSlipAndDrivesOnWithTheImu) {

@@ -45,6 +45,31 @@ TEST_F(MotionPredictorTest, TakesTheTranslationFromTheWheelsAndTheTurnFromTheGyr
   EXPECT_NEAR(prediction.T_last_now.theta_rad(), 0.06, 1e-9);
 }
 
+TEST_F(MotionPredictorTest, WheelsAndImuEachTellTheMotionAlone) {
+  add_imu(-0.1, 0, 0, 0);
+  add_wheels(-0.1, 0, 0.5);
+  start();
+  add_imu(0.01, 0.2, 0.3, 0);
+  add_wheels(0.05, 0.2, 0.5);
+  MotionState state;
+  state.velocity_mps = Eigen::Vector2d(1, 0);
+  state.velocity_variance_m2ps2 = 0.04;
+  const Prediction prediction = predictor_.predict(at(0.2), state);
+  ASSERT_TRUE(prediction.by_wheels && prediction.by_imu);
+  EXPECT_NEAR(prediction.by_wheels->T_last_now.x_m(), 0.1, 1e-9);
+  EXPECT_NEAR(prediction.by_wheels->T_last_now.theta_rad(), 0, 1e-9);
+  EXPECT_NEAR(prediction.by_imu->T_last_now.x_m(), 0.2, 1e-9);
+  EXPECT_NEAR(prediction.by_imu->T_last_now.theta_rad(), 0.06, 1e-9);
+  EXPECT_NEAR(prediction.by_imu->covariance(0, 0), 0.04 * 0.2 * 0.2, 1e-9);
+}
+
+TEST_F(MotionPredictorTest, WithoutAVelocityTheImuTellsNoMotion) {
+  add_imu(-0.1, 0, 0, 0);
+  start();
+  add_imu(0.01, 0.2, 0, 0);
+  EXPECT_FALSE(predictor_.predict(at(0.2), {}).by_imu.has_value());
+}
+
 TEST_F(MotionPredictorTest, CarriesTheVelocityOnByTheImuWhereTheWheelsAreSilent) {
   add_imu(-0.1, 0, 0, 0);
   start();

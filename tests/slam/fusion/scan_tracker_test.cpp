@@ -99,5 +99,66 @@ TEST(ScanTracker, AMatchStaysAtThePredictionAlongWhatItDoesNotSee) {
   EXPECT_GT(slide_along_corridor_m(0), 0.004);
 }
 
+MotionEstimate straight_on(double distance_m) {
+  return {Pose2(distance_m, 0, 0), Eigen::Vector3d(1e-5, 1e-5, 4e-6).asDiagonal()};
+}
+
+// A robot that stands in a corridor where a box, half a metre wide, has moved 0.1 m away from it
+// since the submap was made. By the wheels the robot has not moved.
+class MovedBoxTest : public ::testing::Test {
+ protected:
+  MovedBoxTest() {
+    for (std::uint32_t i = 0; i < 10; ++i) submap_.insert(i, Pose2(), points_with_box_at(2.0));
+    prediction_.has_wheels = true;
+    prediction_.covariance = straight_on(0).covariance;
+    prediction_.by_wheels = straight_on(0);
+  }
+
+  std::vector<Eigen::Vector2d> points_with_box_at(double x_m) {
+    std::vector<testing::Wall> walls = testing::corridor_walls();
+    walls.push_back({{x_m, -0.25}, {x_m, 0.25}});
+    return motion::deskewed_points(testing::scan_of(walls, Pose2(), 4, 0.01, rng_),
+                                   Eigen::Vector3d::Zero(), 30);
+  }
+
+  TrackedScan track(Submap& submap) {
+    return track_scan(submap, points_with_box_at(2.1), Pose2(), prediction_, robot_, params_, true);
+  }
+
+  Rng rng_{7};
+  RobotModel robot_;
+  FusionParams params_;
+  Submap submap_{0, params_};
+  Prediction prediction_;
+};
+
+TEST_F(MovedBoxTest, DragsTheRobotWhereOnlyTheWheelsContradict) {
+  const TrackedScan tracked = track(submap_);
+  EXPECT_EQ(tracked.num_outvoted, 0);
+  EXPECT_LT(tracked.T_submap_base.x_m(), -0.03);
+}
+
+TEST_F(MovedBoxTest, DoesNotDragTheRobotWhereTheImuSaysTheSameAsTheWheels) {
+  prediction_.by_imu = straight_on(0);
+  const TrackedScan tracked = track(submap_);
+  EXPECT_EQ(tracked.num_outvoted, 1);
+  EXPECT_EQ(tracked.match->num_observable, 2);
+  EXPECT_NEAR(tracked.T_submap_base.x_m(), 0, 0.002);
+}
+
+TEST_F(MovedBoxTest, IsBelievedWhereTheImuSaysWhatItShows) {
+  prediction_.by_imu = straight_on(-0.1);
+  EXPECT_EQ(track(submap_).num_outvoted, 0);
+}
+
+TEST_F(MovedBoxTest, ThereIsNothingToVoteOnInAnEmptySubmap) {
+  prediction_.by_imu = straight_on(0);
+  Submap empty(0, params_);
+  const TrackedScan tracked = track(empty);
+  EXPECT_FALSE(tracked.match.has_value());
+  EXPECT_EQ(tracked.num_outvoted, 0);
+  EXPECT_EQ(tracked.T_submap_base.x_m(), 0);
+}
+
 }  // namespace
 }  // namespace corridor::fusion
