@@ -24,6 +24,14 @@ class MotionPredictorTest : public ::testing::Test {
     (void)predictor_.predict(at(0), {});
     predictor_.reset_interval(at(0), Eigen::Vector3d::Zero());
   }
+  // Straight on at 0.5 m/s by the wheels, turning at 0.3 rad/s by the gyro, from 0 to 0.2 s.
+  void drive_with_turning_gyro() {
+    add_imu(-0.1, 0, 0, 0);
+    add_wheels(-0.1, 0, 0.5);
+    start();
+    add_imu(0.01, 0.2, 0.3, 0);
+    add_wheels(0.05, 0.2, 0.5);
+  }
 
   RobotModel robot_;
   FusionParams params_;
@@ -31,11 +39,7 @@ class MotionPredictorTest : public ::testing::Test {
 };
 
 TEST_F(MotionPredictorTest, TakesTheTranslationFromTheWheelsAndTheTurnFromTheGyro) {
-  add_imu(-0.1, 0, 0, 0);
-  add_wheels(-0.1, 0, 0.5);
-  start();
-  add_imu(0.01, 0.2, 0.3, 0);
-  add_wheels(0.05, 0.2, 0.5);
+  drive_with_turning_gyro();
   MotionState state;
   state.wheel_scale = 0.1;
   const Prediction prediction = predictor_.predict(at(0.2), state);
@@ -46,11 +50,7 @@ TEST_F(MotionPredictorTest, TakesTheTranslationFromTheWheelsAndTheTurnFromTheGyr
 }
 
 TEST_F(MotionPredictorTest, WheelsAndImuEachTellTheMotionAlone) {
-  add_imu(-0.1, 0, 0, 0);
-  add_wheels(-0.1, 0, 0.5);
-  start();
-  add_imu(0.01, 0.2, 0.3, 0);
-  add_wheels(0.05, 0.2, 0.5);
+  drive_with_turning_gyro();
   MotionState state;
   state.velocity_mps = Eigen::Vector2d(1, 0);
   state.velocity_variance_m2ps2 = 0.04;
