@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -23,30 +22,6 @@
 
 namespace corridor::formats {
 namespace {
-
-// Longer suffixes before those they end with.
-constexpr std::array<std::pair<std::string_view, LogFormat>, 13> kSuffixes = {{
-    {".lcm.log.gz", LogFormat::kLcm},
-    {".lcm.log", LogFormat::kLcm},
-    {".lcm.gz", LogFormat::kLcm},
-    {".lcm", LogFormat::kLcm},
-    {".dat.gz", LogFormat::kTicks},
-    {".dat", LogFormat::kTicks},
-    {".clf.gz", LogFormat::kCarmen},
-    {".clf", LogFormat::kCarmen},
-    {".log.gz", LogFormat::kCarmen},
-    {".log", LogFormat::kCarmen},
-    {".rawlog.gz", LogFormat::kRawlog},
-    {".rawlog", LogFormat::kRawlog},
-    {".bag", LogFormat::kRosbag},
-}};
-
-std::size_t known_suffix_length(std::string_view name) {
-  for (const auto& [suffix, format] : kSuffixes) {
-    if (name.ends_with(suffix)) return suffix.size();
-  }
-  return 0;
-}
 
 Result<void> settle_order(ParsedLog& parsed, const std::string& file, StampOrder order,
                           std::vector<std::string>& notes) {
@@ -169,40 +144,6 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
 
 }  // namespace
 
-std::string_view to_text(LogFormat format) {
-  switch (format) {
-    case LogFormat::kCarmen:
-      return "carmen";
-    case LogFormat::kRawlog:
-      return "rawlog";
-    case LogFormat::kRosbag:
-      return "rosbag";
-    case LogFormat::kLcm:
-      return "lcm";
-    case LogFormat::kTicks:
-      return "ticks";
-  }
-  return "unknown";
-}
-
-bool is_writable(LogFormat format) {
-  return format != LogFormat::kLcm && format != LogFormat::kTicks;
-}
-
-std::optional<LogFormat> format_from_suffix(const std::filesystem::path& log) {
-  const std::string name = log.filename().string();
-  for (const auto& [suffix, format] : kSuffixes) {
-    if (name.ends_with(suffix)) return format;
-  }
-  return std::nullopt;
-}
-
-std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_view suffix) {
-  std::string name = log.filename().string();
-  name.resize(name.size() - known_suffix_length(name));
-  return log.parent_path() / (name + std::string(suffix));
-}
-
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& log,
                                                   std::string_view suffix,
                                                   const ReadLogOptions& options) {
@@ -261,7 +202,7 @@ Result<void> write_log(const SensorLog& log, const std::filesystem::path& path) 
     return fail(
         ErrorCode::kUnsupported,
         format ? fmt::format("{} logs are read only", to_text(*format)) : "unknown kind of log",
-        path.string(), "a name that ends in .clf .clf.gz .log .log.gz .rawlog .rawlog.gz or .bag");
+        path.string(), "a name that ends in one of " + writable_suffixes());
   }
   auto written = *format == LogFormat::kRawlog   ? write_rawlog(log, path)
                  : *format == LogFormat::kRosbag ? write_rosbag(log, path)

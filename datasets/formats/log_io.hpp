@@ -33,8 +33,15 @@ std::optional<LogFormat> format_from_suffix(const std::filesystem::path& log);
 // Logs of raw numbers (LCM, ticks) are read only.
 bool is_writable(LogFormat format);
 
+// For messages: the suffixes of all logs that are read, and of those that are written.
+std::string readable_suffixes();
+std::string writable_suffixes();
+
 // The path with its known log suffix replaced: sidecar_of("a/b.clf.gz", ".tum") = "a/b.tum".
 std::filesystem::path sidecar_of(const std::filesystem::path& log, std::string_view suffix);
+
+// The other logs in the folder that have the same sidecars: a.rawlog beside a.clf.
+std::vector<std::filesystem::path> namesakes_of(const std::filesystem::path& log);
 
 // What may lie beside a log, named like it, and is taken along.
 inline constexpr std::array<std::string_view, 5> kSidecarSuffixes = {

@@ -86,11 +86,6 @@ Result<ParsedLog> parse_rosbag(std::string_view bytes, const std::filesystem::pa
 
 }  // namespace
 
-const char* const kKnownNames =
-    "a name that ends in .clf .log .rawlog .lcm.log .lcm or .dat, or in one of these and .gz, or "
-    "in "
-    ".bag";
-
 Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
                                             const ReadLogOptions& options) {
   const auto path = find_sidecar(log, ".robot.toml", options);
@@ -104,7 +99,8 @@ Result<ParsedLog> parse_log(const std::filesystem::path& path,
                             const std::optional<Sidecar>& sidecar, const ReadLogOptions& options) {
   const auto format = format_from_suffix(path);
   if (!format) {
-    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(), kKnownNames);
+    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(),
+                "a name that ends in one of " + readable_suffixes());
   }
   const auto bytes = read_file_bytes(path);
   if (!bytes) return tl::make_unexpected(bytes.error());

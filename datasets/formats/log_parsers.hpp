@@ -23,7 +23,4 @@ Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
 Result<ParsedLog> parse_log(const std::filesystem::path& path,
                             const std::optional<Sidecar>& sidecar, const ReadLogOptions& options);
 
-// What names a readable log may end in.
-extern const char* const kKnownNames;
-
 }  // namespace corridor::formats

@@ -3,7 +3,6 @@
 
 #include "datasets/formats/carmen/carmen.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/log_parsers.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -38,8 +37,10 @@ ReadingCounts readings_held(const SensorLog& log, LogFormat target) {
 
 Result<void> check_written_log(const SensorLog& log, const std::filesystem::path& path) {
   const auto format = format_from_suffix(path);
-  if (!format)
-    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(), kKnownNames);
+  if (!format) {
+    return fail(ErrorCode::kUnsupported, "unknown kind of log", path.string(),
+                "a name that ends in one of " + writable_suffixes());
+  }
   const auto read = read_log(path);
   if (!read) {
     return fail(read.error().code, "the format cannot hold this log: " + read.error().what,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <sstream>
 
 #include "datasets/formats/log_io.hpp"
 #include "datasets/formats/trajectories/tum.hpp"
@@ -39,6 +40,26 @@ TEST(ReadLog, ChoosesTheFormatByTheLongestKnownSuffix) {
   const auto unknown = read_log("a.xyz");
   ASSERT_FALSE(unknown.has_value());
   EXPECT_EQ(unknown.error().code, ErrorCode::kUnsupported);
+}
+
+TEST(ReadLog, ListsSuffixesThatAreReadAndWritten) {
+  EXPECT_EQ(writable_suffixes(), ".clf .clf.gz .log .log.gz .rawlog .rawlog.gz .bag");
+  std::istringstream suffixes(readable_suffixes());
+  std::string writable;
+  for (std::string suffix; suffixes >> suffix;) {
+    const auto format = format_from_suffix("a" + suffix);
+    ASSERT_TRUE(format.has_value()) << suffix;
+    EXPECT_EQ(sidecar_of("a" + suffix, ".tum"), std::filesystem::path("a.tum"));
+    if (is_writable(*format)) writable += (writable.empty() ? "" : " ") + suffix;
+  }
+  EXPECT_EQ(writable, writable_suffixes());
+}
+
+TEST(ReadLog, KnowsTheOtherLogsThatASidecarBelongsTo) {
+  const ScratchFolder folder;
+  for (const char* name : {"a.clf", "a.tum", "a.b.clf", "ab.clf"}) write_text(folder / name, "x");
+  EXPECT_TRUE(namesakes_of(folder / "a.clf").empty());
+  EXPECT_EQ(namesakes_of(folder / "a.bag"), std::vector<std::filesystem::path>{folder / "a.clf"});
 }
 
 // Every defect written to a rawlog and read back: refused in one line that names the file.
