@@ -23,7 +23,7 @@ struct TomlProblem {
   std::string text;        // what; expected ...
 };
 
-// Fails with the file and the line of a syntax error.
+// Fails with the file and the line of a syntax error, or if the file states nothing.
 Result<toml::table> parse_toml(const std::filesystem::path& path);
 
 // "file:line: text; file:line: text" as one Error. Requires a problem.

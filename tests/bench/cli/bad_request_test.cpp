@@ -90,6 +90,28 @@ TEST(BadRequest, CommandLinesThatCannotBeRead) {
   expect_refused(folder, "run smoke --bogus", {"--bogus"});
 }
 
+TEST(BadRequest, FilesThatStateNothing) {
+  const ScratchFolder folder;
+  folder.write("empty.toml", "");
+  folder.write("remarks.toml", "# nothing yet\n");
+  folder.write("data/catalog.toml", "");
+  folder.write("on-empty.toml", "base = \"empty.toml\"\n");
+  folder.write("a.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  folder.write("m.pgm", "P5 1 1 255\nx");
+  folder.write("m.yaml",
+               "image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+               "occupied_thresh: 0.65\nfree_thresh: 0.2\n");
+  const std::string nothing = "the file states nothing; expected at least one key";
+  expect_refused(folder, "simulate empty.toml --out x.rawlog", {"empty.toml: " + nothing});
+  expect_refused(folder, "simulate remarks.toml --out x.rawlog", {"remarks.toml: " + nothing});
+  expect_refused(folder, "simulate on-empty.toml --out x.rawlog", {"empty.toml: " + nothing});
+  expect_refused(folder, "run --system karto --dataset empty.toml --out o", {nothing});
+  expect_refused(folder, "run empty.toml --out o", {"empty.toml:1: key \"name\" is missing"});
+  expect_refused(folder, "data list --data-dir data", {"catalog.toml: dataset: missing"});
+  expect_refused(folder, "evaluate --estimate a.tum --truth a.tum --map m.yaml --world empty.toml",
+                 {"empty.toml: " + nothing});
+}
+
 TEST(BadRequest, SeedsThatAreNoSeeds) {
   const ScratchFolder folder;
   const std::string range = "expected a whole number from 0 to 18446744073709551615";
