@@ -44,8 +44,9 @@ void ConvertCommand::add_to(CLI::App& command) {
       ->type_name("IN");
   command
       .add_option("out", out,
-                  "Log (.rawlog .clf .clf.gz .bag; truth and world go beside it), trajectory (.tum "
-                  ".kitti .csv .clf) or pose graph (.g2o .graph)")
+                  "Log (" + formats::writable_suffixes() +
+                      "; truth and world go beside it), trajectory (.tum .kitti .csv .clf .clf.gz) "
+                      "or pose graph (.g2o .graph .toro)")
       ->required()
       ->type_name("OUT");
   command.add_flag(

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "bench/cli/conversions.hpp"
+#include "bench/cli/log_output.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -41,40 +43,35 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, ignored);
 }
 
+// What lies at the new log's name and is its own: what is brought, and what it shares with IN.
+std::vector<fs::path> own_files(const catalog::LoadedDataset& in, const fs::path& out) {
+  std::vector<fs::path> own;
+  for (const Companion& file : companions_of(in, out)) {
+    if (file.is_brought) own.push_back(file.target);
+  }
+  const fs::path robot = formats::sidecar_of(out, ".robot.toml");
+  const fs::path robot_of_in = formats::sidecar_of(in.log.provenance.source, ".robot.toml");
+  if (is_same_file(robot, robot_of_in)) own.push_back(robot);
+  return own;
+}
+
 // The log that is read is not replaced, nor does the new one get another log's truth.
-Result<void> check_convert(const catalog::LoadedDataset& in, const fs::path& out) {
+Result<void> check_convert(const catalog::LoadedDataset& in, const fs::path& out,
+                           formats::LogFormat format) {
   if (is_same_file(in.log.provenance.source, out)) {
     return fail(ErrorCode::kInvalid, "this is the log that is read", out.string(), "another name");
   }
-  for (const Companion& file : companions_of(in, out)) {
-    if (const Result<void> good = check_targets({file.target}); !good) return good;
-    if (file.is_brought || !fs::exists(file.target)) continue;
-    return fail(ErrorCode::kInvalid, "this file would pass for one of the new log",
-                file.target.string(), "another name for the log, or that file removed");
-  }
-  const fs::path robot = formats::sidecar_of(out, ".robot.toml");
-  const bool is_own =
-      is_same_file(robot, formats::sidecar_of(in.log.provenance.source, ".robot.toml"));
-  if (fs::exists(robot) && !is_own) {
-    return fail(ErrorCode::kInvalid, "this file would calibrate the new log", robot.string(),
-                "another name for the log, or that file removed");
-  }
-  const fs::path topics = formats::sidecar_of(out, ".topics.toml");
-  if (formats::format_from_suffix(out) == formats::LogFormat::kRosbag && fs::exists(topics)) {
-    return fail(ErrorCode::kInvalid, "this file would name the topics of the new bag",
-                topics.string(), "another name for the bag, or that file removed");
-  }
-  return check_targets({out});
+  std::vector<fs::path> targets = {out};
+  for (const Companion& file : companions_of(in, out)) targets.push_back(file.target);
+  if (const Result<void> good = check_targets(targets); !good) return good;
+  return refuse_strangers(out, format, own_files(in, out));
 }
 
-// OUT with what belongs to IN's log beside it; all or nothing.
-Result<void> write_all(const catalog::LoadedDataset& in, const fs::path& out) {
-  Result<StagedFiles> staged = StagedFiles::beside(out);
-  if (!staged) return tl::make_unexpected(staged.error());
-  const Result<void> written = formats::write_log(in.log, staged->path_for(out));
-  if (!written) return tl::make_unexpected(staged->with_final_name(written.error()));
+// What belongs to IN's log.
+Result<void> copy_companions(const catalog::LoadedDataset& in, const fs::path& out,
+                             const StagedFiles& staged) {
   for (const Companion& file : companions_of(in, out)) {
-    const fs::path hidden = staged->path_for(file.target);
+    const fs::path hidden = staged.path_for(file.target);
     std::error_code error;
     // A log converted within its folder keeps its companions untouched.
     const bool is_there = is_same_file(file.source, file.target);
@@ -85,9 +82,7 @@ Result<void> write_all(const catalog::LoadedDataset& in, const fs::path& out) {
     return fail(ErrorCode::kUnreadable, "cannot be copied: " + error.message(),
                 file.source.string());
   }
-  const Result<void> good = formats::check_written_log(in.log, staged->path_for(out));
-  if (!good) return tl::make_unexpected(staged->with_final_name(good.error()));
-  return staged->commit();
+  return {};
 }
 
 // What the reader did to the readings, and what looks wrong with them: no copy carries it on.
@@ -98,22 +93,15 @@ void say_of(const SensorLog& log, const CommonOptions& common) {
   }
 }
 
-std::string text_of(const formats::ReadingCounts& held) {
-  std::string text =
-      fmt::format("{} scans, {} wheel samples", held.num_scans, held.num_wheel_samples);
-  if (held.num_imu_samples > 0) text += fmt::format(", {} inertial samples", held.num_imu_samples);
-  return text;
-}
-
 }  // namespace
 
 Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool accept_other_checksum,
                              const CommonOptions& common) {
-  const auto target = formats::format_from_suffix(out);
-  if (!target || !formats::is_writable(*target)) {
-    return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written",
-                out.string(),
-                "a log as .rawlog, .clf, .clf.gz or .bag (a pose graph as .g2o, .graph or .toro)");
+  const Result<formats::LogFormat> target = format_to_write(out);
+  if (!target) {
+    Error error = target.error();
+    error.expected += " (a pose graph as .g2o, .graph or .toro)";
+    return tl::make_unexpected(std::move(error));
   }
   catalog::LoadOptions as_it_is;
   as_it_is.keep_lidar_clock = true;
@@ -121,18 +109,19 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool ac
   const Result<catalog::LoadedDataset> loaded =
       runner::load_dataset(in, common.data_dirs(), as_it_is);
   if (!loaded) return tl::make_unexpected(loaded.error());
-  if (const Result<void> good = check_convert(*loaded, out); !good) {
+  if (const Result<void> good = check_convert(*loaded, out, *target); !good) {
     return tl::make_unexpected(good.error());
   }
-  if (const Result<void> written = write_all(*loaded, out); !written) {
+  const auto companions = [&](const StagedFiles& staged) {
+    return copy_companions(*loaded, out, staged);
+  };
+  if (const Result<void> written = write_log_whole(loaded->log, out, companions); !written) {
     return tl::make_unexpected(written.error());
   }
   say_of(loaded->log, common);
-  const std::vector<std::string> losses = formats::losses_of_conversion(loaded->log, *target);
-  for (const std::string& loss : losses) common.say(fmt::format("lost: {}", loss));
-  common.say(fmt::format("{}: {}{}", out.string(),
-                         text_of(formats::readings_held(loaded->log, *target)),
-                         losses.empty() ? ", nothing lost" : ""));
+  const bool is_less = say_losses(loaded->log, *target, common);
+  common.say(fmt::format("{}: {}{}", out.string(), text_of_held(loaded->log, *target),
+                         is_less ? "" : ", nothing lost"));
   return runner::kExitDone;
 }
 

@@ -7,9 +7,12 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <cstdint>
+#include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "bench/cli/log_output.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "datasets/formats/atomic_file.hpp"
@@ -22,23 +25,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// LOG, LOG.tum and LOG.truth.toml.
 std::vector<fs::path> files_of(const fs::path& log) {
   return {log, formats::sidecar_of(log, ".tum"), formats::sidecar_of(log, ".truth.toml")};
 }
 
-// LOG, LOG.tum and LOG.truth.toml; none of them if one cannot be written.
-Result<void> write_all(const simulation::Simulated& simulated, const fs::path& log) {
-  Result<StagedFiles> staged = StagedFiles::beside(log);
-  if (!staged) return tl::make_unexpected(staged.error());
-  const fs::path hidden = staged->path_for(log);
-  Result<void> done = formats::write_log(simulated.log, hidden);
-  if (done) {
-    const std::string text = simulation::truth_toml(simulated);
-    done = formats::write_file_atomically(formats::sidecar_of(hidden, ".truth.toml"),
-                                          std::string_view(text));
+Result<formats::LogFormat> check_out(const fs::path& out) {
+  Result<formats::LogFormat> format = format_to_write(out);
+  if (!format) return format;
+  const std::vector<fs::path> files = files_of(out);
+  if (const Result<void> good = check_targets(files); !good) {
+    return tl::make_unexpected(good.error());
   }
-  if (!done) return tl::make_unexpected(staged->with_final_name(done.error()));
-  return staged->commit();
+  if (const Result<void> good = refuse_strangers(out, *format, files); !good) {
+    return tl::make_unexpected(good.error());
+  }
+  return format;
+}
+
+Result<void> write_all(const simulation::Simulated& simulated, const fs::path& log) {
+  return write_log_whole(simulated.log, log, [&](const StagedFiles& staged) {
+    const std::string text = simulation::truth_toml(simulated);
+    return formats::write_file_atomically(staged.path_for(formats::sidecar_of(log, ".truth.toml")),
+                                          std::string_view(text));
+  });
 }
 
 }  // namespace
@@ -51,7 +61,8 @@ void SimulateCommand::add_to(CLI::App& command) {
       ->type_name("N");
   command
       .add_option("--out", out,
-                  "The log, .rawlog or .clf.gz; its truth goes to LOG.tum and LOG.truth.toml")
+                  "The log, one of " + formats::writable_suffixes() +
+                      "; its truth goes to LOG.tum and LOG.truth.toml")
       ->required()
       ->type_name("LOG.rawlog");
   common.add_to(command);
@@ -60,14 +71,8 @@ void SimulateCommand::add_to(CLI::App& command) {
 Result<ExitCode> SimulateCommand::run() const {
   const Result<std::uint64_t> drawn_from = seed_from_text(seed);
   if (!drawn_from) return tl::make_unexpected(drawn_from.error());
-  const auto format = formats::format_from_suffix(out);
-  if (!format || !formats::is_writable(*format)) {
-    return fail(ErrorCode::kUnsupported, "the suffix names no log format that is written", out,
-                ".rawlog, .clf or .clf.gz");
-  }
-  if (const Result<void> good = check_targets(files_of(out)); !good) {
-    return tl::make_unexpected(good.error());
-  }
+  const Result<formats::LogFormat> format = check_out(out);
+  if (!format) return tl::make_unexpected(format.error());
   const Result<simulation::Scenario> read = simulation::load_scenario(scenario);
   if (!read) return tl::make_unexpected(read.error());
   const Result<simulation::Simulated> simulated = simulation::simulate(*read, *drawn_from);
@@ -75,10 +80,9 @@ Result<ExitCode> SimulateCommand::run() const {
   if (const Result<void> written = write_all(*simulated, out); !written) {
     return tl::make_unexpected(written.error());
   }
-  common.say(fmt::format(
-      "{}: {} seed {}, {} scans, {} wheel samples, {} inertial samples, {:.1f} s", out, read->name,
-      *drawn_from, simulated->log.num_scans(), simulated->log.num_wheel_samples(),
-      simulated->log.num_imu_samples(), simulated->log.duration_s()));
+  say_losses(simulated->log, *format, common);
+  common.say(fmt::format("{}: {} seed {}, {}, {:.1f} s", out, read->name, *drawn_from,
+                         text_of_held(simulated->log, *format), simulated->log.duration_s()));
   return runner::kExitDone;
 }
 

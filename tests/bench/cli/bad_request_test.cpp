@@ -136,17 +136,6 @@ TEST(BadRequest, FilesThatCannotBeReadOrWritten) {
   expect_refused(folder, "report nowhere --out r/s/", {"nowhere"});
 }
 
-TEST(BadRequest, ASimulationThatCannotBeWrittenLeavesTheFilesThatWereThere) {
-  const ScratchFolder folder;
-  folder.write("log.rawlog", "my log");
-  folder.write("log.truth.toml", "my world");
-  std::filesystem::create_directory(folder / "log.tum");
-  expect_refused(folder, "simulate paper-corridor --out log.rawlog",
-                 {"log.tum", "no regular file"});
-  EXPECT_EQ(text_of(folder / "log.rawlog"), "my log");
-  EXPECT_EQ(text_of(folder / "log.truth.toml"), "my world");
-}
-
 TEST(BadRequest, AConversionOntoItselfOrBesideAnotherLogsWorld) {
   const ScratchFolder folder;
   folder.write("a.clf", kGoodLog);

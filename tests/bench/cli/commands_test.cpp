@@ -55,20 +55,6 @@ TEST(Help, NamesOnlyCommandsThatExist) {
   }
 }
 
-TEST(Simulate, GivesTheSameBytesForTheSameSeedAndTheTruthBesideThem) {
-  const ScratchFolder folder;
-  ASSERT_EQ(run_program(folder, "simulate paper-corridor --seed 4 --out a.rawlog").exit_code, 0);
-  ASSERT_EQ(run_program(folder, "simulate paper-corridor --seed 4 --out b.rawlog").exit_code, 0);
-  ASSERT_EQ(run_program(folder, "simulate paper-corridor --seed 5 --out c.rawlog").exit_code, 0);
-  EXPECT_EQ(
-      contents_of(folder.path()),
-      (std::vector<std::string>{"a.rawlog", "a.truth.toml", "a.tum", "b.rawlog", "b.truth.toml",
-                                "b.tum", "c.rawlog", "c.truth.toml", "c.tum"}));
-  EXPECT_EQ(text_of(folder / "a.tum"), text_of(folder / "b.tum"));
-  EXPECT_EQ(text_of(folder / "a.truth.toml"), text_of(folder / "b.truth.toml"));
-  EXPECT_NE(text_of(folder / "a.tum"), text_of(folder / "c.tum"));
-}
-
 TEST(Convert, SaysWhatTheTargetCannotHold) {
   const ScratchFolder folder;
   ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);

@@ -155,6 +155,18 @@ TEST(Convert, RefusesABrokenBagAndAStrangersTopicsOrCalibration) {
   expect_refused(folder, "convert a.rawlog e.bag", {"e.robot.toml", "would calibrate the new log"});
 }
 
+TEST(Convert, KeepsTheTruthOfAnotherLogOfTheSameName) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  ASSERT_EQ(run_program(folder, "convert a.rawlog b.bag --quiet").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "convert a.rawlog b.clf").exit_code, 0) << "the same truth";
+  folder.write("b.tum", kTum);
+  expect_refused(folder, "convert a.rawlog b.clf",
+                 {"b.tum: this file of b.bag would be overwritten"});
+  expect_refused(folder, "convert a.rawlog b.rawlog", {"b.tum: this file of b."});
+  EXPECT_EQ(text_of(folder / "b.tum"), kTum);
+}
+
 TEST(Convert, RefusesToMakeOneKindOfFileFromAnother) {
   const ScratchFolder folder;
   folder.write("a.tum", kTum);
