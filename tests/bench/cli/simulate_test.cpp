@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/bench/cli/program.hpp"
+#include "tests/support/documents.hpp"
 
 namespace corridor::testing {
 namespace {
@@ -132,6 +133,23 @@ TEST(Simulate, NamesEverySuffixThatIsWrittenInItsHelpAndItsRefusal) {
     const Answer answer = run_program(folder, "simulate stand-still --out p" + suffix);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
   }
+}
+
+TEST(Simulate, TakesTheExampleOfTheScenariosReadmeAsThatSays) {
+  const std::string readme = text_of_document("datasets/scenarios/README.md");
+  const auto examples = examples_in(readme, "toml");
+  ASSERT_EQ(examples.size(), 1U);
+  const ScratchFolder folder;
+  folder.write("my-corridor.toml", examples.front());
+  EXPECT_NE(readme.find("`simulate` takes one of its members, `my-corridor.toml@3.5`"),
+            std::string::npos);
+  expect_refused(folder, "simulate my-corridor.toml --out p.rawlog",
+                 {"a family of scenarios needs one of its members", "3.5 4.5 6"});
+  const Answer member = run_program(folder, "simulate my-corridor.toml@3.5 --out p.rawlog");
+  EXPECT_EQ(member.exit_code, 0) << member.err;
+  const Answer run = run_program(
+      folder, "run --system dead-reckoning --dataset my-corridor.toml --out o --no-report");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
 }  // namespace
