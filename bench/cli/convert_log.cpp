@@ -105,6 +105,13 @@ std::string text_of(const formats::ReadingCounts& held) {
   return text;
 }
 
+// What is lost in writing has lines of its own, what was in reading is a note.
+std::string end_of(const SensorLog& log, const std::vector<std::string>& losses) {
+  if (!losses.empty()) return "";
+  return log.provenance.has_left_out ? ", nothing lost but what the notes leave out"
+                                     : ", nothing lost";
+}
+
 }  // namespace
 
 Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool accept_other_checksum,
@@ -132,7 +139,7 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool ac
   for (const std::string& loss : losses) common.say(fmt::format("lost: {}", loss));
   common.say(fmt::format("{}: {}{}", out.string(),
                          text_of(formats::readings_held(loaded->log, *target)),
-                         losses.empty() ? ", nothing lost" : ""));
+                         end_of(loaded->log, losses)));
   return runner::kExitDone;
 }
 
