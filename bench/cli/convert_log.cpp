@@ -93,6 +93,13 @@ void say_of(const SensorLog& log, const CommonOptions& common) {
   }
 }
 
+// What is lost in writing has lines of its own, what was in reading is a note.
+const char* end_of(const SensorLog& log, bool is_less) {
+  if (is_less) return "";
+  return log.provenance.has_left_out ? ", nothing lost but what the notes leave out"
+                                     : ", nothing lost";
+}
+
 }  // namespace
 
 Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool accept_other_checksum,
@@ -121,7 +128,7 @@ Result<ExitCode> convert_log(const std::string& in, const fs::path& out, bool ac
   say_of(loaded->log, common);
   const bool is_less = say_losses(loaded->log, *target, common);
   common.say(fmt::format("{}: {}{}", out.string(), text_of_held(loaded->log, *target),
-                         is_less ? "" : ", nothing lost"));
+                         end_of(loaded->log, is_less)));
   return runner::kExitDone;
 }
 

@@ -107,6 +107,27 @@ void reconcile_range_min(const std::optional<double>& log_m, const RobotOverride
   model_m = *log_m;
 }
 
+// The noise that scans state fills what no model says.
+void fill_range_sigma(const StatedNoise& stated, LidarModel& lidar) {
+  if (!stated.sigma_m || stated.varies || !StatedNoise::is_sensible(*stated.sigma_m)) return;
+  lidar.range_sigma_m = *stated.sigma_m;
+}
+
+// A calibration knows better than a driver, but what the driver said is not kept.
+void count_other_noise(const LidarModel& lidar, ParsedLog& log) {
+  const StatedNoise& stated = log.stated_noise;
+  const double model_m = lidar.range_sigma_m;
+  if (!stated.sigma_m) return;
+  if (!stated.varies && std::abs(*stated.sigma_m - model_m) <= kSameRange_ratio * model_m) return;
+  const std::string values = stated.varies
+                                 ? "accuracies that differ"
+                                 : fmt::format("an accuracy of {:.4g} m", *stated.sigma_m);
+  std::size_t num_scans = 0;
+  for_each_scan(log, [&num_scans](const LaserScan&) { ++num_scans; });
+  log.left_out[fmt::format("scans state {}, not kept: range_sigma_m is {} m", values, model_m)] =
+      num_scans;
+}
+
 // A sidecar may shorten the sensor's reach: longer beams become beams without return.
 void apply_sidecar_range(ParsedLog& log, double range_max_m, std::vector<std::string>& notes) {
   std::size_t num_cut = 0;
@@ -164,6 +185,8 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
     reconcile_lidar_pose(log, *model, log.scans_state_pose, robot, notes);
     reconcile_range_max(log, *model, robot, notes);
     reconcile_range_min(log.range_min_m, *model, robot, notes);
+    const bool has_model = model->states_range_sigma || sources.caller.has_value();
+    if (!has_model) fill_range_sigma(log.stated_noise, robot.lidar);
   }
   if (log.T_base_imu) {
     if (model->states_imu_pose && !is_same_pose(*log.T_base_imu, robot.imu.T_base_imu)) {
@@ -178,6 +201,7 @@ Result<RobotModel> calibrate(ParsedLog& log, const CalibrationSources& sources,
       return tl::make_unexpected(applied.error());
     }
   }
+  count_other_noise(robot.lidar, log);
   if (log.is_time_offset_applied) robot.lidar.time_offset_s = 0;
   if (log.scans_state_duration && first_scan(log) != nullptr) {
     const double median_s = median_duration_s(log);

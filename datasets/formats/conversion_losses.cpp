@@ -102,8 +102,10 @@ class LossFinder {
     kept.lidar.T_base_lidar = log_.robot.lidar.T_base_lidar;
     kept.lidar.range_max_m = log_.robot.lidar.range_max_m;
     kept.lidar.scan_duration_s = log_.robot.lidar.scan_duration_s;  // said above
+    const double range_sigma_m = log_.robot.lidar.range_sigma_m;
+    if (StatedNoise::is_sensible(range_sigma_m)) kept.lidar.range_sigma_m = range_sigma_m;
     if (says_more(log_.robot, kept)) {
-      lines_.emplace_back("the robot model is left out, but for the LiDAR's pose and range");
+      lines_.emplace_back("the robot model is left out, but for the LiDAR's pose, range and noise");
     }
     note_lidar_clock();
     note_reference();

@@ -46,16 +46,20 @@ Result<RobotModel> settle_calibration(ParsedLog& parsed, const std::filesystem::
   return calibrate(parsed, sources, notes);
 }
 
+void note_counts(const Counts& counts, std::vector<std::string>& notes) {
+  for (const auto& [what, count] : counts) notes.push_back(fmt::format("{} {}", count, what));
+}
+
 // What lies beyond the cut is the end of the log: its order is settled.
-void cut_after(std::vector<SensorEvent>& events, double cut_after_s,
-               std::vector<std::string>& notes) {
+void cut_after(std::vector<SensorEvent>& events, double cut_after_s, Provenance& provenance) {
   const std::size_t num_before = events.size();
   while (events.size() > 1 &&
          seconds_between(stamp_of(events.front()), stamp_of(events.back())) > cut_after_s) {
     events.pop_back();
   }
-  notes.push_back(fmt::format("{} readings later than {} s after the first left out",
-                              num_before - events.size(), cut_after_s));
+  if (events.size() < num_before) provenance.has_left_out = true;
+  provenance.notes.push_back(fmt::format("{} readings later than {} s after the first left out",
+                                         num_before - events.size(), cut_after_s));
 }
 
 Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOptions& options,
@@ -66,6 +70,7 @@ Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOption
     if (!options.takes_reference) {
       log.provenance.notes.push_back(
           fmt::format("{} poses of the log itself are not used", reference->size()));
+      log.provenance.has_left_out = true;
       return {};
     }
     log.provenance.notes.push_back(fmt::format(
@@ -118,14 +123,15 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
   log.provenance.source = path.string();
   log.provenance.format = parsed->format;
   auto& notes = log.provenance.notes;
-  for (const auto& [what, count] : parsed->counts)
-    notes.push_back(fmt::format("{} {}", count, what));
+  note_counts(parsed->counts, notes);
   notes.insert(notes.end(), parsed->notes.begin(), parsed->notes.end());
   auto settled = judge(settle_order(*parsed, path.string(), options.order, notes), refusals, notes);
   if (!settled) return tl::make_unexpected(settled.error());
-  if (options.cut_after_s) cut_after(parsed->events, *options.cut_after_s, notes);
+  if (options.cut_after_s) cut_after(parsed->events, *options.cut_after_s, log.provenance);
   auto robot = settle_calibration(*parsed, path, *sidecar, options, notes);
   if (!robot) return tl::make_unexpected(robot.error());
+  note_counts(parsed->left_out, notes);
+  if (!parsed->left_out.empty()) log.provenance.has_left_out = true;
   log.robot = std::move(*robot);
   log.events = std::move(parsed->events);
   if (parsed->has_wheel_ticks_only) {

@@ -46,21 +46,23 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
     if (!read) return tl::make_unexpected(read.error());
     stated = std::move(*read);
   }
-  if (!options.robot && !stated.states_wheels) {
-    return fail(ErrorCode::kInvalid, "nothing says what a tick of the wheels means", file,
-                "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
-                    sidecar_of(file, ".robot.toml").string());
-  }
   const RawClock other = format == LogFormat::kTicks ? RawClock::kEventOffset : RawClock::kScanRate;
   if (stated.raw.clock == other) {
     return fail(
         ErrorCode::kInvalid, "raw.clock is one that logs of this format do not have", file,
         format == LogFormat::kTicks ? R"("data" or "scan-rate")" : R"("data" or "event-offset")");
   }
-  if (format == LogFormat::kTicks) {
-    return parse_ticks(bytes, file, stated.robot, stated.raw.clock);
+  auto parsed = format == LogFormat::kTicks
+                    ? parse_ticks(bytes, file, stated.robot, stated.raw.clock)
+                    : parse_lcm(bytes, file, {stated.raw, stated.robot});
+  // What is no log of the format needs no calibration; its readings may look wrong for lack of one.
+  const bool is_of_format = parsed || parsed.error().code == ErrorCode::kInvalid;
+  if (is_of_format && !options.robot && !stated.states_wheels) {
+    return fail(ErrorCode::kInvalid, "nothing says what a tick of the wheels means", file,
+                "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
+                    sidecar_of(file, ".robot.toml").string());
   }
-  return parse_lcm(bytes, file, {stated.raw, stated.robot});
+  return parsed;
 }
 
 Result<BagTopics> topics_of(const std::filesystem::path& path, const ReadLogOptions& options) {
@@ -82,6 +84,12 @@ Result<ParsedLog> parse_rosbag(std::string_view bytes, const std::filesystem::pa
   const auto topics = topics_of(path, options);
   if (!topics) return tl::make_unexpected(topics.error());
   return parse_bag(bytes, path, {*topics, options.order == StampOrder::kFile});
+}
+
+// lcm-logger names its files as CARMEN's logger does.
+bool is_suffix_of_two_formats(const std::filesystem::path& log) {
+  const std::string name = log.filename().string();
+  return name.ends_with(".log") || name.ends_with(".log.gz");
 }
 
 }  // namespace
@@ -107,8 +115,11 @@ Result<ParsedLog> parse_log(const std::filesystem::path& path,
   if (bytes->empty()) {
     return fail(ErrorCode::kMalformed, "the log is empty", path.string(), "at least one scan");
   }
-  // lcm-logger names its files as CARMEN's logger does.
-  const bool is_lcm = *format == LogFormat::kCarmen && begins_with_lcm_sync(*bytes);
+  const bool is_lcm = begins_with_lcm_sync(*bytes);
+  if (is_lcm && *format != LogFormat::kLcm && !is_suffix_of_two_formats(path)) {
+    return fail(ErrorCode::kMalformed, "the file begins as an LCM event log does", path.string(),
+                fmt::format("a {} log, or a name that ends in .lcm", to_text(*format)));
+  }
   const LogFormat found = is_lcm ? LogFormat::kLcm : *format;
   const auto parse = [&]() -> Result<ParsedLog> {
     switch (found) {

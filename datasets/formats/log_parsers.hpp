@@ -19,7 +19,7 @@ struct Sidecar {
 Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
                                             const ReadLogOptions& options);
 
-// By the suffix; a .log that begins as an LCM event log does is one.
+// By the suffix, which the content must fit; a .log that begins as an LCM event log does is one.
 Result<ParsedLog> parse_log(const std::filesystem::path& path,
                             const std::optional<Sidecar>& sidecar, const ReadLogOptions& options);
 

@@ -106,7 +106,12 @@ class Suspicions {
                       "millimetres?",
                       lidar.max_range_m));
     }
-    if (lidar.invalid_ratio > kMostlyInvalid_ratio) {
+    if (lidar.invalid_ratio == 1) {
+      add(fmt::format(
+          "LiDAR: no beam of any scan has a return, with a limit of {:.1f} m; ranges in "
+          "centimetres or millimetres, or a limit in another unit?",
+          lidar.range_limit_m));
+    } else if (lidar.invalid_ratio > kMostlyInvalid_ratio) {
       add(fmt::format("LiDAR: {:.1f} % of the beams are without return; a limit in another unit?",
                       100 * lidar.invalid_ratio));
     }

@@ -28,6 +28,31 @@ inline bool exceeds_full_turn(std::size_t num_beams, double angle_increment_rad)
 // A heading beyond this is no number of turns a robot makes, and has lost its digits.
 inline constexpr double kMaxHeading_rad = 1e6;
 
+// What was done, and how often: "beams of range 0 taken as no return" -> 12.
+using Counts = std::map<std::string, std::size_t>;
+
+// A finite range that is no return, by the limit from which on there is none: every reader counts
+// them here.
+inline void count_no_return(double range_m, double limit_m, Counts& counts) {
+  ++counts[range_m == 0 ? "beams of range 0 taken as no return"
+           : range_m >= limit_m
+               ? "beams at the LiDAR's limit or beyond taken as no return"
+               : "beams below the LiDAR's limit that the log says are without return"];
+}
+
+// The standard deviation of a range as the scans state it, by every one of them or by none.
+struct StatedNoise {
+  std::optional<double> sigma_m;  // the first scan's
+  bool varies = false;
+
+  void take(double stated_m) {
+    varies = varies || (sigma_m && *sigma_m != stated_m);
+    if (!sigma_m) sigma_m = stated_m;
+  }
+  // Between the best of LiDARs and one that says nothing; formats write 0 where it is not known.
+  static bool is_sensible(double stated_m) { return stated_m >= 1e-3 && stated_m <= 0.5; }
+};
+
 struct ParsedLog {
   std::vector<SensorEvent> events;
   // Where in the file each event stands: a line number (CARMEN) or a byte offset (rawlog, ROS bag).
@@ -52,11 +77,13 @@ struct ParsedLog {
   std::optional<Pose2> T_base_imu;
   // What the log says of its scans besides their range_max_m.
   std::optional<double> range_min_m;
+  StatedNoise stated_noise;
   // Wheel samples have ticks; their poses follow from them and the robot model.
   bool has_wheel_ticks_only = false;
-  // Counted repairs and things left out, by what was done: "beams of range 0 taken as no return"
-  // -> 12.
-  std::map<std::string, std::size_t> counts;
+  // Repairs.
+  Counts counts;
+  // What the file says and the log has no place for: no conversion brings it back.
+  Counts left_out;
   // What else was done, one line each.
   std::vector<std::string> notes;
 

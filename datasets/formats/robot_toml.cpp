@@ -118,7 +118,7 @@ void take_lidar(const toml::table& document, RobotOverride& stated,
   stated.states_range_min = table.number("range_min_m", lidar.range_min_m);
   stated.states_range_max = table.number("range_max_m", lidar.range_max_m);
   stated.states_scan_duration = table.number("scan_duration_s", lidar.scan_duration_s);
-  table.number("range_sigma_m", lidar.range_sigma_m);
+  stated.states_range_sigma = table.number("range_sigma_m", lidar.range_sigma_m);
   table.number("time_offset_s", lidar.time_offset_s);
   table.refuse_other_keys();
 }

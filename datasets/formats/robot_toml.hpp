@@ -27,6 +27,7 @@ struct RobotOverride {
   bool states_lidar_pose = false;  // any of lidar.x_m, y_m, yaw_deg
   bool states_range_max = false;
   bool states_range_min = false;
+  bool states_range_sigma = false;
   bool states_scan_duration = false;
   bool states_imu_pose = false;  // any of imu.x_m, y_m, yaw_deg
 };

@@ -100,7 +100,9 @@ std::string format_stamp(Timestamp stamp) {
 std::string quote(std::string_view text, std::size_t max_length) {
   std::string quoted = "'";
   for (const char c : text.substr(0, max_length)) {
-    quoted += (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) ? '?' : c;
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_visible = byte >= ' ' && byte <= '~';
+    quoted += is_visible ? std::string(1, c) : fmt::format("\\x{:02X}", byte);
   }
   quoted += text.size() > max_length ? "...'" : "'";
   return quoted;

@@ -44,7 +44,8 @@ std::optional<Timestamp> parse_stamp(std::string_view field);
 // "12.345000000": the inverse of parse_stamp.
 std::string format_stamp(Timestamp stamp);
 
-// At most `max_length` characters of foreign text, control characters replaced: for error messages.
+// At most `max_length` bytes of foreign text for error messages. What is no printable ASCII is
+// shown as "\xEF": a byte order mark or a look-alike would read as what was expected.
 std::string quote(std::string_view text, std::size_t max_length = 40);
 
 }  // namespace corridor::formats

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <vector>
 
@@ -53,6 +54,7 @@ class TicksParser {
     if (!sample) return tl::make_unexpected(sample.error());
     log_.add(*sample, line_number);
     log_.add(std::move(scan), line_number);
+    count_left_out();
     return {};
   }
 
@@ -136,25 +138,36 @@ class TicksParser {
       const std::int64_t range_mm = number("range", kFirstRangeToken + beam, 0, kMaxRange_mm);
       if (beam < kFirstBeam || beam > kLastBeam) continue;
       const double range_m = static_cast<double>(range_mm) * kMetresPerMillimetre;
-      const bool is_return = range_mm >= kFirstRange_mm && range_m <= scan.range_max_m;
-      count_no_return(range_mm, is_return);
       scan.ranges_m.push_back(static_cast<float>(range_m));
       // The limit as a double may be less than the range as a float.
-      const bool fits = static_cast<double>(scan.ranges_m.back()) <= scan.range_max_m;
-      scan.is_valid.push_back(is_return && fits ? 1 : 0);
+      const double longer_m = std::max(range_m, static_cast<double>(scan.ranges_m.back()));
+      const bool is_return = range_mm >= kFirstRange_mm && longer_m <= scan.range_max_m;
+      if (!is_return) count_code_or_range(range_mm, longer_m);
+      scan.is_valid.push_back(is_return ? 1 : 0);
     }
     return scan;
   }
 
-  void count_no_return(std::int64_t range_mm, bool is_return) {
-    if (is_return) return;
-    if (range_mm == 0) {
-      ++log_.counts["beams of range 0 taken as no return"];
-    } else if (range_mm < kFirstRange_mm) {
+  void count_code_or_range(std::int64_t range_mm, double range_m) {
+    if (range_mm > 0 && range_mm < kFirstRange_mm) {
       ++log_.counts["beams with an error code of the LiDAR taken as no return"];
     } else {
-      ++log_.counts["beams beyond the LiDAR's limit taken as no return"];
+      count_no_return(range_m, robot_.lidar.range_max_m, log_.counts);
     }
+  }
+
+  // The tokens that are neither stamp, ticks nor range, where they say anything.
+  void count_left_out() {
+    const auto says_something = [](std::string_view token) { return token != "0"; };
+    const auto first_range = tokens_.begin() + kFirstRangeToken;
+    const bool has_more =
+        says_something(tokens_[1]) || says_something(tokens_.back()) ||
+        std::any_of(tokens_.begin() + kRightToken + 1, first_range, says_something);
+    if (has_more) ++log_.left_out["rows with numbers besides stamp, ticks and ranges: left out"];
+    const auto last_beam = first_range + kLastBeam;
+    const bool has_outer = std::any_of(first_range, first_range + kFirstBeam, says_something) ||
+                           std::any_of(last_beam + 1, tokens_.end() - 1, says_something);
+    if (has_outer) ++log_.left_out["rows with ranges beside the LiDAR's field of view: left out"];
   }
 
   const std::string& file_;

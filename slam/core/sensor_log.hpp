@@ -29,6 +29,8 @@ struct Provenance {
   std::string format;  // "rawlog", "carmen", "simulation"
   std::vector<std::string>
       notes;  // counted, reported repairs: "12 stamps moved by isotonic regression"
+  // The file says more than the log holds; notes name what.
+  bool has_left_out = false;
   // The log's truth is what another program found while it was recorded.
   bool is_truth_reference = false;
 };

@@ -75,6 +75,10 @@ Result<void> check_geometry(const ros1::Scan& scan, const std::string& where) {
 Result<std::optional<SensorEvent>> BagMessageReader::take(const ros1::Message& message,
                                                           const std::string& where) {
   const Timestamp stamp{message.stamp_ns};
+  // rosbag has no time of 0.
+  if (std::max<std::int64_t>(message.stamp_ns, 1) != message.record_ns) {
+    ++log_.left_out["messages lose the time of their recording"];
+  }
   if (const auto* scan = std::get_if<ros1::Scan>(&message.content)) {
     return take_scan(*scan, stamp, where);
   }
@@ -90,6 +94,8 @@ Result<std::optional<SensorEvent>> BagMessageReader::take(const ros1::Message& m
 BagMessageReader::Taken BagMessageReader::take_scan(const ros1::Scan& scan, Timestamp stamp,
                                                     const std::string& where) {
   if (auto good = check_geometry(scan, where); !good) return tl::make_unexpected(good.error());
+  if (!scan.intensities.empty()) ++log_.left_out["scans lose their intensities"];
+  if (scan.scan_time_s != 0) ++log_.left_out["scans lose the time that they say is between scans"];
   LaserScan taken;
   taken.stamp = stamp;
   taken.duration_s = sweep_s(scan);
@@ -128,10 +134,10 @@ Result<void> BagMessageReader::take_beams(const ros1::Scan& scan, const std::str
                         ? "NaN ranges taken as no return, replaced by the limit + 1 m"
                         : "infinite ranges taken as no return, replaced by the limit + 1 m"];
       range_m = scan.range_max_m + kBeyondLimit_m;
-    } else if (range_m == 0) {
-      ++log_.counts["beams of range 0 taken as no return"];
-    } else if (range_m < scan.range_min_m) {
+    } else if (range_m > 0 && range_m < scan.range_min_m) {
       ++log_.counts["beams below the sensor's minimum taken as no return"];
+    } else if (!is_valid) {
+      count_no_return(range_m, scan.range_max_m, log_.counts);
     }
     taken.ranges_m.push_back(range_m);
     taken.is_valid.push_back(is_valid ? 1 : 0);
@@ -155,6 +161,7 @@ BagMessageReader::Taken BagMessageReader::take_odometry(const ros1::Odometry& od
   if (!are_finite(odometry.x_m, odometry.y_m, odometry.qx, odometry.qy, odometry.qz, odometry.qw)) {
     return fail(ErrorCode::kInvalid, "odometry pose is not finite", where, "finite numbers");
   }
+  if (odometry.has_more) ++log_.left_out["odometry messages lose twist, covariances or height"];
   const auto yaw_rad = yaw_of_quaternion(odometry.qx, odometry.qy, odometry.qz, odometry.qw, where);
   if (!yaw_rad) return tl::make_unexpected(yaw_rad.error());
   return SensorEvent{WheelSample{stamp, Pose2(odometry.x_m, odometry.y_m, *yaw_rad), std::nullopt}};
@@ -163,8 +170,11 @@ BagMessageReader::Taken BagMessageReader::take_odometry(const ros1::Odometry& od
 BagMessageReader::Taken BagMessageReader::take_imu(const ros1::Imu& imu, Timestamp stamp,
                                                    const std::string& where) {
   if (!imu.has_gyro || !imu.has_accel) {
-    ++log_.counts["IMU readings that state no angular velocity or acceleration left out"];
+    ++log_.left_out["IMU readings that state no angular velocity or acceleration left out"];
     return std::nullopt;
+  }
+  if (imu.has_more) {
+    ++log_.left_out["IMU readings lose orientation, the other axes or covariances"];
   }
   if (!are_finite(imu.gyro_z_radps, imu.accel_x_mps2, imu.accel_y_mps2)) {
     return fail(ErrorCode::kInvalid, "an IMU reading is not finite", where, "finite numbers");
@@ -174,6 +184,9 @@ BagMessageReader::Taken BagMessageReader::take_imu(const ros1::Imu& imu, Timesta
 
 BagMessageReader::Taken BagMessageReader::take_joints(const ros1::Joints& joints, Timestamp stamp,
                                                       const std::string& where) {
+  if (joints.has_more || joints.names.size() > 2) {
+    ++log_.left_out["joint messages lose velocities, efforts or other joints"];
+  }
   std::optional<std::int64_t> ticks[2];
   const std::string names[2] = {joints_->left, joints_->right};
   for (int side = 0; side < 2; ++side) {
@@ -195,7 +208,7 @@ BagMessageReader::Taken BagMessageReader::take_joints(const ros1::Joints& joints
     ticks[side] = std::llround(turns * static_cast<double>(joints_->ticks_per_turn));
   }
   if (!ticks[0] || !ticks[1]) {
-    ++log_.counts["joint messages without both wheels left out"];
+    ++log_.left_out["joint messages without both wheels left out"];
     return std::nullopt;
   }
   return SensorEvent{WheelSample{stamp, Pose2(), WheelTicks{*ticks[0], *ticks[1]}}};

@@ -166,8 +166,8 @@ void count_left_out(const BagIndex& index, const std::vector<std::string>& used,
   for (const BagConnection& connection : index.connections) {
     if (std::find(used.begin(), used.end(), connection.topic) != used.end()) continue;
     if (connection.num_messages == 0) continue;
-    log.counts[fmt::format("messages of {} ({}) left out", quote(connection.topic),
-                           quote(connection.type))] += connection.num_messages;
+    log.left_out[fmt::format("messages of {} ({}) left out", quote(connection.topic),
+                             quote(connection.type))] += connection.num_messages;
   }
 }
 

@@ -52,7 +52,7 @@ struct EventWriter {
   }
   ros1::Message operator()(const ImuSample& sample) const {
     return {"/imu", 0, sample.stamp.nanoseconds,
-            ros1::Imu{sample.gyro_z_radps, sample.accel_x_mps2, sample.accel_y_mps2, true, true}};
+            ros1::Imu{sample.gyro_z_radps, sample.accel_x_mps2, sample.accel_y_mps2}};
   }
 };
 

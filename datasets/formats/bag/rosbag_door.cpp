@@ -7,6 +7,7 @@
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/LaserScan.h>
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -25,24 +26,59 @@ ros::Time ros_time(std::int64_t nanoseconds) {
           static_cast<std::uint32_t>(nanoseconds % kSecond_ns)};
 }
 
+template <class Numbers>
+bool says_something(const Numbers& numbers) {
+  return std::any_of(numbers.begin(), numbers.end(), [](double number) { return number != 0; });
+}
+
+// Of a covariance whose first number may say that nothing was measured.
+template <class Numbers>
+bool is_measured(const Numbers& covariance) {
+  return covariance[0] != kNotMeasured && says_something(covariance);
+}
+
+bool says_something(const geometry_msgs::Vector3& vector) {
+  return vector.x != 0 || vector.y != 0 || vector.z != 0;
+}
+
 Scan content_of(const sensor_msgs::LaserScan& scan) {
-  return {scan.angle_min, scan.angle_max, scan.angle_increment, scan.time_increment,
-          scan.range_min, scan.range_max, scan.ranges};
+  return {scan.angle_min, scan.angle_max, scan.angle_increment, scan.time_increment, scan.range_min,
+          scan.range_max, scan.ranges,    scan.intensities,     scan.scan_time};
 }
 
 Odometry content_of(const nav_msgs::Odometry& odometry) {
   const auto& pose = odometry.pose.pose;
-  return {pose.position.x,    pose.position.y,    pose.orientation.x,
-          pose.orientation.y, pose.orientation.z, pose.orientation.w};
+  const auto& twist = odometry.twist;
+  const bool has_more = pose.position.z != 0 || says_something(odometry.pose.covariance) ||
+                        says_something(twist.twist.linear) || says_something(twist.twist.angular) ||
+                        says_something(twist.covariance);
+  return {pose.position.x,
+          pose.position.y,
+          pose.orientation.x,
+          pose.orientation.y,
+          pose.orientation.z,
+          pose.orientation.w,
+          has_more};
 }
 
 Imu content_of(const sensor_msgs::Imu& imu) {
-  return {imu.angular_velocity.z, imu.linear_acceleration.x, imu.linear_acceleration.y,
+  const bool has_more = imu.angular_velocity.x != 0 || imu.angular_velocity.y != 0 ||
+                        imu.linear_acceleration.z != 0 ||
+                        imu.orientation_covariance[0] != kNotMeasured ||
+                        is_measured(imu.angular_velocity_covariance) ||
+                        is_measured(imu.linear_acceleration_covariance);
+  return {imu.angular_velocity.z,
+          imu.linear_acceleration.x,
+          imu.linear_acceleration.y,
           imu.angular_velocity_covariance[0] != kNotMeasured,
-          imu.linear_acceleration_covariance[0] != kNotMeasured};
+          imu.linear_acceleration_covariance[0] != kNotMeasured,
+          has_more};
 }
 
-Joints content_of(const sensor_msgs::JointState& joints) { return {joints.name, joints.position}; }
+Joints content_of(const sensor_msgs::JointState& joints) {
+  return {joints.name, joints.position,
+          says_something(joints.velocity) || says_something(joints.effort)};
+}
 
 template <class T>
 bool take(const rosbag::MessageInstance& instance, std::vector<Message>& messages) {
@@ -64,6 +100,8 @@ sensor_msgs::LaserScan ros_message(const Scan& scan) {
   message.range_min = scan.range_min_m;
   message.range_max = scan.range_max_m;
   message.ranges = scan.ranges_m;
+  message.intensities = scan.intensities;
+  message.scan_time = scan.scan_time_s;
   return message;
 }
 

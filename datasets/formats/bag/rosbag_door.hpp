@@ -13,6 +13,7 @@
 namespace corridor::formats::ros1 {
 
 // Stamps are those of the messages' headers. Angles [rad], lengths [m], SI units throughout.
+// has_more: the message says something in fields that are not here; zeros say nothing.
 struct Scan {
   float angle_min_rad = 0;
   float angle_max_rad = 0;
@@ -21,6 +22,8 @@ struct Scan {
   float range_min_m = 0;
   float range_max_m = 0;
   std::vector<float> ranges_m;
+  std::vector<float> intensities;
+  float scan_time_s = 0;  // from scan to scan
 };
 
 struct Odometry {
@@ -30,6 +33,7 @@ struct Odometry {
   double qy = 0;
   double qz = 0;
   double qw = 1;
+  bool has_more = false;  // twist, covariances, height
 };
 
 struct Imu {
@@ -39,11 +43,13 @@ struct Imu {
   // sensor_msgs/Imu: a covariance of -1 says that the quantity is not measured.
   bool has_gyro = true;
   bool has_accel = true;
+  bool has_more = false;  // orientation, the other axes, covariances
 };
 
 struct Joints {
   std::vector<std::string> names;
   std::vector<double> positions_rad;
+  bool has_more = false;  // velocities, efforts
 };
 
 struct Message {

@@ -47,8 +47,23 @@ Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
 // since a laser line states their pose.
 std::vector<const SensorEvent*> carmen_events(const SensorLog& log);
 
+// Who is named on a line as the computer that logged it.
+inline constexpr std::string_view kCarmenHost = "corridor-bench";
+
+// CARMEN's tv and rv of a line: its robot's forward speed and turn rate.
+struct CarmenSpeed {
+  double forward_mps = 0;
+  double turn_radps = 0;
+};
+
+// The speeds that the poses of a log's lines tell: each the mean since the line before with another
+// stamp, the first the mean until the next. Steps that go back in time or faster than LogLimits
+// tell no speed: the last one holds. A pose interpolated between two changes none of them.
+std::vector<CarmenSpeed> carmen_speeds(const std::vector<WheelSample>& lines);
+
 // Scans as ROBOTLASER1, wheel samples as ODOM. A scan without a wheel sample of its stamp states
-// the pose interpolated between its neighbours. The log must have a wheel sample.
+// the pose interpolated between its neighbours. Speeds follow from the poses. The log must have a
+// wheel sample.
 std::string carmen_text(const SensorLog& log);
 
 }  // namespace corridor::formats

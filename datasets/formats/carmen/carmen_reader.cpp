@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,11 @@ constexpr double kHalfTurn_rad = std::numbers::pi;
 // Added to a sensor's limit where a log has an infinite range: finite, and beyond the limit.
 constexpr float kBeyondLimit_m = 1.0F;
 constexpr std::size_t kMaxRemissions = kMaxBeams;
+
+struct LineEnd {
+  Timestamp stamp;
+  bool has_more = false;  // a host, or a logger's stamp besides the message's
+};
 
 // Takes fields off one line; the first thing wrong is kept and all later answers mean nothing.
 class LineReader {
@@ -49,6 +55,11 @@ class LineReader {
     return has_failed() ? Pose2() : Pose2(x_m, y_m, theta_rad);
   }
 
+  CarmenSpeed speed() {
+    const double forward_mps = number("tv");
+    return {forward_mps, number("rv")};
+  }
+
   // A range may be infinite: no return.
   double range() {
     const std::string_view field = take_field(rest_);
@@ -58,7 +69,7 @@ class LineReader {
   }
 
   // "stamp host logger_stamp" and nothing else.
-  Timestamp stamp_and_end() {
+  LineEnd stamp_and_end() {
     const std::string_view field = take_field(rest_);
     const auto stamp = parse_stamp(field);
     if (!stamp) refuse("stamp", field, "decimal seconds");
@@ -70,7 +81,7 @@ class LineReader {
     if (const auto more = take_field(rest_); !more.empty()) {
       refuse("field", more, "the line's end");
     }
-    return stamp.value_or(Timestamp{});
+    return {stamp.value_or(Timestamp{}), host != kCarmenHost || parse_stamp(logger_stamp) != stamp};
   }
 
   void refuse(const char* name, std::string_view field, const char* expected) {
@@ -107,7 +118,7 @@ class CarmenParser {
     } else if (message == "ODOM") {
       take_odom(reader);
     } else if (is_skipped_carmen_message(message)) {
-      ++log_.counts[fmt::format("{} lines skipped", message)];
+      ++log_.left_out[fmt::format("{} lines skipped", message)];
     } else {
       reader.refuse("message", message, "a CARMEN message such as FLASER, ROBOTLASER1 or ODOM");
     }
@@ -115,9 +126,16 @@ class CarmenParser {
     return {};
   }
 
-  ParsedLog finish() { return std::move(log_); }
+  ParsedLog finish() {
+    count_other_speeds();
+    return std::move(log_);
+  }
 
  private:
+  void leave_out_if(bool is_said, const char* what) {
+    if (is_said) ++log_.left_out[what];
+  }
+
   void take_flaser(LineReader& reader) {
     log_.scans_state_pose = false;
     LaserScan scan;
@@ -127,22 +145,24 @@ class CarmenParser {
     const std::size_t num_steps = num_beams % 2 == 0 ? num_beams : num_beams - 1;
     scan.angle_increment_rad = num_steps == 0 ? 0 : kHalfTurn_rad / static_cast<double>(num_steps);
     take_ranges(reader, num_beams, scan);
-    reader.pose("pose");  // corrected by whoever wrote the log, or the odometry once more
+    // Corrected by whoever wrote the log, or the odometry once more.
+    const Pose2 T_map_base = reader.pose("pose");
     const Pose2 T_odom_base = reader.pose("odometry pose");
-    scan.stamp = reader.stamp_and_end();
+    leave_out_if(!(T_map_base == T_odom_base), "FLASER lines lose their corrected pose");
+    scan.stamp = take_stamp(reader);
     add_scan(reader, T_odom_base, std::move(scan));
   }
 
   void take_robotlaser(LineReader& reader) {
     LaserScan scan;
-    reader.number("laser type");
+    leave_out_if(reader.number("laser type") != 0, "scans lose the type of their laser");
     scan.angle_min_rad = reader.number("start angle");
     const double field_of_view_rad = reader.number("field of view");
     scan.angle_increment_rad = reader.number("angular resolution");
     const double range_max_m = reader.number("maximum range");
     scan.range_max_m = options_.no_return_range_m.value_or(range_max_m);
-    reader.number("accuracy");
-    reader.number("remission mode");
+    log_.stated_noise.take(reader.number("accuracy"));
+    leave_out_if(reader.number("remission mode") != 0, "scans lose the mode of their remissions");
     const std::size_t num_beams = reader.count("number of ranges", 1, kMaxBeams);
     check_geometry(reader, field_of_view_rad, num_beams, scan);
     take_ranges(reader, num_beams, scan);
@@ -150,14 +170,18 @@ class CarmenParser {
     for (std::size_t i = 0; i < num_remissions && !reader.has_failed(); ++i) {
       reader.number("remission");
     }
+    leave_out_if(num_remissions > 0, "scans lose their remissions");
     const Pose2 T_odom_lidar = reader.pose("laser pose");
     const Pose2 T_odom_base = reader.pose("robot pose");
     scan.T_base_lidar = mounting(T_odom_base.between(T_odom_lidar));
-    for (const char* name :
-         {"tv", "rv", "forward safety distance", "side safety distance", "turn axis"}) {
-      reader.number(name);
+    const CarmenSpeed speed = reader.speed();
+    bool has_safety = false;
+    for (const char* name : {"forward safety distance", "side safety distance", "turn axis"}) {
+      has_safety = reader.number(name) != 0 || has_safety;
     }
-    scan.stamp = reader.stamp_and_end();
+    leave_out_if(has_safety, "scans lose the robot's safety distances and turn axis");
+    scan.stamp = take_stamp(reader);
+    take_speed(reader, {scan.stamp, T_odom_base, std::nullopt}, speed);
     add_scan(reader, T_odom_base, std::move(scan));
   }
 
@@ -175,10 +199,37 @@ class CarmenParser {
 
   void take_odom(LineReader& reader) {
     const Pose2 T_odom_base = reader.pose("odometry pose");
-    for (const char* name : {"tv", "rv", "acceleration"}) reader.number(name);
-    const Timestamp stamp = reader.stamp_and_end();
-    if (!reader.has_failed()) {
-      log_.add(WheelSample{stamp, T_odom_base, std::nullopt}, line_number_);
+    const CarmenSpeed speed = reader.speed();
+    leave_out_if(reader.number("acceleration") != 0, "ODOM lines lose their acceleration");
+    const WheelSample sample{take_stamp(reader), T_odom_base, std::nullopt};
+    take_speed(reader, sample, speed);
+    if (!reader.has_failed()) log_.add(sample, line_number_);
+  }
+
+  Timestamp take_stamp(LineReader& reader) {
+    const LineEnd end = reader.stamp_and_end();
+    leave_out_if(end.has_more, "lines lose their host and the logger's stamp");
+    return end.stamp;
+  }
+
+  void take_speed(const LineReader& reader, const WheelSample& line, const CarmenSpeed& speed) {
+    if (reader.has_failed()) return;
+    wheel_lines_.push_back(line);
+    stated_speeds_.push_back(speed);
+  }
+
+  // Speeds that follow from the poses are not lost with the line.
+  void count_other_speeds() {
+    constexpr double kSame_ratio =
+        1e-6;  // poses and stamps are printed with as many digits or more
+    const auto is_same = [](double stated, double told) {
+      return std::abs(stated - told) <= kSame_ratio * std::max(1.0, std::abs(told));
+    };
+    const std::vector<CarmenSpeed> told = carmen_speeds(wheel_lines_);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      const bool is_kept = is_same(stated_speeds_[i].forward_mps, told[i].forward_mps) &&
+                           is_same(stated_speeds_[i].turn_radps, told[i].turn_radps);
+      leave_out_if(!is_kept, "lines lose speeds (tv, rv) that are not those of their odometry");
     }
   }
 
@@ -208,15 +259,18 @@ class CarmenParser {
     scan.is_valid.reserve(num_beams);
     for (std::size_t i = 0; i < num_beams && !reader.has_failed(); ++i) {
       const double range_m = reader.range();
-      const bool is_return = range_m > 0 && range_m < scan.range_max_m;
-      if (range_m == 0) ++log_.counts["beams of range 0 taken as no return"];
       auto kept_m = static_cast<float>(range_m);
+      // The limit as a double may be less than the range as a float.
+      const bool is_return =
+          range_m > 0 && range_m < scan.range_max_m && kept_m <= scan.range_max_m;
       if (!std::isfinite(kept_m)) {
         ++log_.counts["infinite ranges replaced by the sensor's limit + 1 m, as no return"];
         kept_m = static_cast<float>(scan.range_max_m) + kBeyondLimit_m;
+      } else if (!is_return) {
+        count_no_return(std::max<double>(range_m, kept_m), scan.range_max_m, log_.counts);
       }
       scan.ranges_m.push_back(kept_m);
-      scan.is_valid.push_back(is_return && kept_m <= scan.range_max_m ? 1 : 0);
+      scan.is_valid.push_back(is_return ? 1 : 0);
     }
   }
 
@@ -234,6 +288,9 @@ class CarmenParser {
   const CarmenOptions& options_;
   std::uint64_t line_number_ = 0;
   Pose2 last_T_base_lidar_;
+  // The lines that state speeds.
+  std::vector<WheelSample> wheel_lines_;
+  std::vector<CarmenSpeed> stated_speeds_;
   ParsedLog log_;
 };
 

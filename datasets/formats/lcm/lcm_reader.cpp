@@ -59,6 +59,7 @@ class LcmAssembler {
     out_.scans_state_duration = true;
     out_.is_time_offset_applied = true;
     out_.counts = std::move(in_.counts);
+    out_.left_out = std::move(in_.left_out);
   }
 
   Result<ParsedLog> run() {
@@ -187,7 +188,9 @@ class LcmAssembler {
     for (const auto& [sweep, utime_us, begin] : in_.sweeps) {
       for (const double range_m : sweep.ranges_m) {
         num_returns += range_m > 0 ? 1 : 0;
-        num_beyond += range_m > range_max_m ? 1 : 0;
+        if (range_m <= range_max_m) continue;
+        ++num_beyond;
+        count_no_return(range_m, range_max_m, out_.counts);
       }
       LaserScan scan = uniform_fan(sweep, shape, range_max_m, losses);
       scan.stamp = add_seconds(scan.stamp, -options_.robot.lidar.time_offset_s);
@@ -201,8 +204,6 @@ class LcmAssembler {
                       losses.num_beyond_seam, losses.num_beams),
           "sweeps of a whole turn each");
     }
-    if (num_beyond > 0)
-      out_.counts["beams beyond the LiDAR's limit taken as no return"] = num_beyond;
     if (2 * num_beyond <= num_returns) return {};
     return failure(
         in_.sweeps.front().begin,
@@ -211,17 +212,21 @@ class LcmAssembler {
   }
 
   void note_fan(const FanShape& shape, const FanLosses& losses) {
-    const auto count = [this](const char* what, std::size_t number) {
-      if (number > 0) out_.counts[what] = number;
+    const auto count = [](Counts& counts, const char* what, std::size_t number) {
+      if (number > 0) counts[what] = number;
     };
-    count("returns left out that share a direction of the uniform fan with a nearer one",
+    count(out_.left_out,
+          "returns left out that share a direction of the uniform fan with a nearer one",
           losses.num_shared_returns);
-    count("beams without return left out that share a direction of the uniform fan with another",
+    count(out_.left_out,
+          "beams without return left out that share a direction of the uniform fan with another",
           losses.num_shared);
-    count("beams left out that point across the sweep's seam", losses.num_beyond_seam);
-    count("directions of the uniform fan without a beam taken as no return",
+    count(out_.left_out, "beams left out that point across the sweep's seam",
+          losses.num_beyond_seam);
+    count(out_.counts, "directions of the uniform fan without a beam taken as no return",
           losses.num_without_beam);
-    count("beams moved by more than 5 ms from the moment they were taken", losses.num_late);
+    count(out_.counts, "beams moved by more than 5 ms from the moment they were taken",
+          losses.num_late);
     const auto num_returns = static_cast<double>(std::max<std::size_t>(losses.num_returns, 1));
     out_.notes.push_back(fmt::format(
         "{} beams with angles of their own put into a uniform fan of {}: returns turned by {:.2f} "
@@ -253,11 +258,11 @@ class LcmAssembler {
       if (!is_kept) ++num_dropped;
     }
     if (num_dropped > 0) {
-      out_.counts["reference poses with a stamp outside the log or out of order left out"] =
+      out_.left_out["reference poses with a stamp outside the log or out of order left out"] =
           num_dropped;
     }
     if (num_not_finite > 0) {
-      out_.counts["reference poses that are not finite left out"] = num_not_finite;
+      out_.left_out["reference poses that are not finite left out"] = num_not_finite;
     }
     if (!reference.empty()) out_.reference = std::move(reference);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -25,10 +26,16 @@ class MbotLogReader {
 
   Result<void> take(const LcmEvent& event) {
     if (event.channel.ends_with(kScanChannelEnd)) return take_scan(event);
-    if (event.channel == kTicksChannel) return keep(decode_ticks(event, file_), event, log_.ticks);
-    if (event.channel == kImuChannel) return keep(decode_imu(event, file_), event, log_.imu);
+    if (event.channel == kTicksChannel) {
+      ++log_.left_out["wheel messages lose the values of their motors"];
+      return keep(decode_ticks(event, file_), event, log_.ticks);
+    }
+    if (event.channel == kImuChannel) {
+      ++log_.left_out["IMU messages lose all but yaw rate and horizontal acceleration"];
+      return keep(decode_imu(event, file_), event, log_.imu);
+    }
     if (event.channel == kPoseChannel) return keep(decode_pose(event, file_), event, log_.poses);
-    ++log_.counts["messages on channels of no use left out"];
+    ++log_.left_out["messages on channels of no use left out"];
     return {};
   }
 
@@ -47,9 +54,10 @@ class MbotLogReader {
     if (!scan) return tl::make_unexpected(scan.error());
     if (!lidar_channel_) lidar_channel_ = event.channel;
     if (event.channel != *lidar_channel_) {
-      ++log_.counts["scans of a second LiDAR left out"];
+      ++log_.left_out["scans of a second LiDAR left out"];
       return {};
     }
+    ++log_.left_out["scans lose their intensities"];
     return keep(sweep_of(*scan, event), event, log_.sweeps);
   }
 
@@ -92,7 +100,7 @@ class MbotLogReader {
     if (std::isnan(range_m)) return std::nullopt;
     if (range_m > 0 && std::isfinite(range_m)) return range_m;
     if (range_m == 0) {
-      ++log_.counts["beams of range 0 taken as no return"];
+      count_no_return(range_m, std::numeric_limits<double>::infinity(), log_.counts);
     } else if (range_m < 0) {
       ++log_.counts["beams of negative range taken as no return"];
     } else {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/formats/lcm/mbot_messages.hpp"
+#include "datasets/formats/parsed_log.hpp"
 #include "datasets/formats/uniform_fan.hpp"
 #include "slam/core/result.hpp"
 
@@ -26,7 +27,8 @@ struct MbotLog {
   std::vector<Received<MbotTicks>> ticks;
   std::vector<Received<MbotImu>> imu;
   std::vector<Received<MbotPose>> poses;
-  std::map<std::string, std::size_t> counts;  // repairs and things left out
+  Counts counts;    // repairs
+  Counts left_out;  // as in ParsedLog
 };
 
 // An Error names the byte of the first message that is unfit: another layout than expected, an

@@ -4,6 +4,7 @@
 
 #include "datasets/formats/byte_walker.hpp"
 #include "datasets/formats/parsed_log.hpp"
+#include "datasets/formats/text.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -23,7 +24,7 @@ ByteWalker walk(const LcmEvent& event, const std::string& file, std::uint64_t fi
   const auto found = walker.take<std::uint64_t>("a message's fingerprint");
   if (found != fingerprint) {
     walker.refuse(event.data_begin,
-                  fmt::format("fingerprint {:016x} on channel {}", found, event.channel),
+                  fmt::format("fingerprint {:016x} on channel {}", found, quote(event.channel)),
                   fmt::format("{:016x}, the layout this version reads", fingerprint));
   }
   return walker;
@@ -45,7 +46,7 @@ Result<T> finish(ByteWalker& walker, const LcmEvent& event, T message) {
   if (!walker.at_end()) {
     walker.refuse(walker.offset(),
                   fmt::format("{} bytes too many in a message on channel {}", walker.num_left(),
-                              event.channel),
+                              quote(event.channel)),
                   "the message's end");
   }
   if (walker.has_failed()) return tl::make_unexpected(walker.error());

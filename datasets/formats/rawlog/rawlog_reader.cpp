@@ -11,7 +11,9 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <numbers>
 #include <optional>
@@ -85,7 +87,7 @@ class RawlogParser {
 
   Result<void> take_comment(const mrpt::obs::CObservationComment& comment) {
     if (log_.robot_toml || !log_.events.empty()) {
-      ++log_.counts["later comments left out"];
+      ++log_.left_out["later comments left out"];
     } else {
       log_.robot_toml = comment.text;
     }
@@ -122,7 +124,7 @@ class RawlogParser {
       const auto& movement = dynamic_cast<const mrpt::obs::CActionRobotMovement2D&>(actions.get(i));
       const auto& increment = movement.rawOdometryIncrementReading;
       if (i > 0) {
-        ++log_.counts["further movements of one action collection left out"];
+        ++log_.left_out["further movements of one action collection left out"];
         continue;
       }
       if (!std::isfinite(increment.x() + increment.y() + increment.phi())) {
@@ -134,6 +136,7 @@ class RawlogParser {
       }
       const auto stamp = stamp_of_clock(movement.timestamp);
       if (!stamp) return tl::make_unexpected(stamp.error());
+      ++log_.left_out["actions lose their stamp and motion model, with velocities and ticks"];
       T_odom_base_ = T_odom_base_ * Pose2(increment.x(), increment.y(), increment.phi());
       pending_stamp_ = *stamp;
     }
@@ -151,6 +154,7 @@ class RawlogParser {
       return failure(ErrorCode::kInvalid, fmt::format("odometry with heading {}", pose.phi()),
                      fmt::format("at most {:g} rad", kMaxHeading_rad));
     }
+    if (odometry.hasVelocities) ++log_.left_out["odometry readings lose their velocities"];
     WheelSample sample{*stamp, Pose2(pose.x(), pose.y(), pose.phi()), std::nullopt};
     if (odometry.hasEncodersInfo) {
       sample.ticks = WheelTicks{odometry.encoderLeftTicks, odometry.encoderRightTicks};
@@ -164,7 +168,7 @@ class RawlogParser {
     using mrpt::obs::IMU_X_ACC;
     using mrpt::obs::IMU_Y_ACC;
     if (!imu.has(IMU_WZ) || !imu.has(IMU_X_ACC) || !imu.has(IMU_Y_ACC)) {
-      ++log_.counts["IMU readings without yaw rate and both accelerations left out"];
+      ++log_.left_out["IMU readings without yaw rate and both accelerations left out"];
       return {};
     }
     const auto stamp = stamp_of_clock(imu.timestamp);
@@ -172,6 +176,10 @@ class RawlogParser {
     const auto T_base_imu = planar(imu.sensorPose, "the IMU");
     if (!T_base_imu) return tl::make_unexpected(T_base_imu.error());
     if (!log_.T_base_imu) log_.T_base_imu = *T_base_imu;
+    constexpr std::ptrdiff_t kNumTaken = 3;
+    if (std::count(imu.dataIsPresent.begin(), imu.dataIsPresent.end(), true) > kNumTaken) {
+      ++log_.left_out["IMU readings lose all but yaw rate and horizontal acceleration"];
+    }
     log_.add(ImuSample{*stamp, imu.get(IMU_WZ), imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC)}, offset_);
     return {};
   }
@@ -179,7 +187,7 @@ class RawlogParser {
   Result<void> take_scan(const mrpt::obs::CObservation2DRangeScan& scan) {
     if (!lidar_label_) lidar_label_ = scan.sensorLabel;
     if (scan.sensorLabel != *lidar_label_) {
-      ++log_.counts["scans of a second LiDAR left out"];
+      ++log_.left_out["scans of a second LiDAR left out"];
       return {};
     }
     const auto stamp = stamp_of_clock(scan.timestamp);
@@ -194,6 +202,8 @@ class RawlogParser {
       return failure(ErrorCode::kInvalid, fmt::format("scan with maximum range {}", scan.maxRange),
                      "a finite number > 0");
     }
+    count_left_out(scan);
+    log_.stated_noise.take(scan.stdError);
     LaserScan taken;
     taken.stamp = *stamp;
     taken.T_base_lidar = *T_base_lidar;
@@ -201,6 +211,13 @@ class RawlogParser {
     take_beams(scan, taken);
     log_.add(std::move(taken), offset_);
     return {};
+  }
+
+  void count_left_out(const mrpt::obs::CObservation2DRangeScan& scan) {
+    if (scan.hasIntensity()) ++log_.left_out["scans lose their intensities"];
+    if (scan.beamAperture != 0 || scan.deltaPitch != 0) {
+      ++log_.left_out["scans lose the width of their beams or their pitch"];
+    }
   }
 
   // Beams of a clockwise scan are put into counter-clockwise order.
@@ -218,6 +235,8 @@ class RawlogParser {
         ++log_.counts
               ["raw ranges of beams without return that were negative or not finite, replaced"];
         range_m = scan.maxRange + kBeyondLimit_m;
+      } else if (!is_valid) {
+        count_no_return(range_m, scan.maxRange, log_.counts);
       }
       taken.ranges_m[i] = range_m;
       taken.is_valid[i] = is_valid ? 1 : 0;

@@ -82,6 +82,17 @@ TEST(Convert, SaysWhatTheReaderDidToTheReadings) {
   }
 }
 
+TEST(Convert, DoesNotCallNothingLostWhatTheReaderLeftOut) {
+  const ScratchFolder folder;
+  folder.write("a.clf", wheel_line("0.05") + laser_line("0.1"));
+  const Answer answer = run_program(folder, "convert a.clf b.rawlog");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  for (const char* part : {"note: 2 lines lose their host and the logger's stamp",
+                           "b.rawlog: 1 scans, 2 wheel samples, nothing lost but what the notes"}) {
+    EXPECT_NE(answer.out.find(part), std::string::npos) << part << " in " << answer.out;
+  }
+}
+
 TEST(Convert, SaysWhatLooksWrongWithTheReadings) {
   const ScratchFolder folder;
   std::string text;
@@ -121,13 +132,14 @@ TEST(Convert, SaysOnlyWhatIsLostOfThisVeryLog) {
   const ScratchFolder folder;
   ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
   const Answer same = run_program(folder, "convert a.rawlog b.rawlog");
-  EXPECT_NE(same.out.find("nothing lost"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("nothing lost\n"), std::string::npos) << same.out;
   EXPECT_TRUE(text_of(folder / "a.rawlog") == text_of(folder / "b.rawlog"));
   const Answer text = run_program(folder, "convert a.rawlog c.clf");
   EXPECT_NE(text.out.find("lost: the robot model"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("inertial samples"), std::string::npos) << text.out;
   const Answer again = run_program(folder, "convert c.clf d.clf");
-  EXPECT_NE(again.out.find("nothing lost"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("nothing lost\n"), std::string::npos) << again.out;
+  EXPECT_TRUE(text_of(folder / "c.clf") == text_of(folder / "d.clf"));
 }
 
 TEST(Convert, NamesTheLidarsClockWhereTheNewLogCannot) {

@@ -188,6 +188,26 @@ TEST(Bag, RangesOutsideTheLimitsAreCountedAsNoReturn) {
   }
 }
 
+TEST(Bag, WhatMessagesSayAndTheLogDoesNotHoldIsCounted) {
+  auto messages = small_bag();
+  const ScratchFolder folder;
+  for (ros1::Message& message : messages) message.record_ns = message.stamp_ns;
+  write_bag(folder / "a.bag", messages);
+  const auto bare = read_log(folder / "a.bag");
+  ASSERT_TRUE(bare.has_value()) << bare.error().to_line();
+  EXPECT_FALSE(bare->provenance.has_left_out) << notes_of(*bare);
+  messages[2].record_ns += 1;
+  std::get<ros1::Scan>(messages[2].content).intensities = {1, 2, 3, 4, 5};
+  write_bag(folder / "a.bag", messages);
+  const auto read = read_log(folder / "a.bag");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_TRUE(read->provenance.has_left_out);
+  for (const char* note :
+       {"1 messages lose the time of their recording", "1 scans lose their intensities"}) {
+    EXPECT_NE(notes_of(*read).find(note), std::string::npos) << note << " in " << notes_of(*read);
+  }
+}
+
 TEST(Bag, OfSeveralTopicsTheSidecarNamesOne) {
   auto messages = small_bag();
   ros1::Message rear = scan_message(kBegin_ns);

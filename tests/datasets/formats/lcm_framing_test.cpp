@@ -45,7 +45,7 @@ TEST(LcmFraming, AnswersEachDefectWithItsByte) {
       {header(1, 1, 4'000'000'000U), "data length is 4000000000"},
       {header(1, 1, 16'777'216U) + "C", "the data end inside an event's data"},
       {lcm_event(1, 5, "A B", ""), "channel 'A B'"},
-      {lcm_event(1, 5, std::string("A\0B", 3), ""), "channel 'A?B'"},
+      {lcm_event(1, 5, std::string("A\0B", 3), ""), "channel 'A\\x00B'"},
   };
   for (const auto& [damage, message] : defects) {
     const auto events = split_lcm_events(good + damage, "a.lcm");

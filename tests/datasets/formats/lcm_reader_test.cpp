@@ -119,7 +119,7 @@ TEST(LcmReader, ReferencePosesWithBrokenStampsAreLeftOutAndCounted) {
   ASSERT_EQ(parsed->reference->size(), 1U);
   EXPECT_EQ((*parsed->reference)[0].T_map_base, Pose2(1, 2, 0.5));
   EXPECT_EQ(
-      parsed->counts.at("reference poses with a stamp outside the log or out of order left out"),
+      parsed->left_out.at("reference poses with a stamp outside the log or out of order left out"),
       2U);
 }
 
@@ -139,7 +139,7 @@ TEST(LcmReader, RangesThatAreNoReturnAreCountedByKind) {
   for (const char* kind :
        {"beams of range 0 taken as no return", "beams of negative range taken as no return",
         "beams of infinite range taken as no return",
-        "beams beyond the LiDAR's limit taken as no return"}) {
+        "beams at the LiDAR's limit or beyond taken as no return"}) {
     EXPECT_EQ(parsed->counts.at(kind), 1U) << kind;
   }
 }
@@ -151,8 +151,8 @@ TEST(LcmReader, OtherChannelsAndASecondLidarAreLeftOutAndCounted) {
           test::scan_message(kBegin_us, test::regular_beams(kBegin_us)));
   const auto parsed = parse(log);
   ASSERT_TRUE(parsed.has_value()) << parsed.error().to_line();
-  EXPECT_EQ(parsed->counts.at("messages on channels of no use left out"), 1U);
-  EXPECT_EQ(parsed->counts.at("scans of a second LiDAR left out"), 1U);
+  EXPECT_EQ(parsed->left_out.at("messages on channels of no use left out"), 1U);
+  EXPECT_EQ(parsed->left_out.at("scans of a second LiDAR left out"), 1U);
 }
 
 // One broken message at the end of a good log: refused in one line with the message's byte.

@@ -119,8 +119,13 @@ TEST(LogHealth, CountsBeamsWithoutReturn) {
   EXPECT_DOUBLE_EQ(health.lidar->invalid_ratio, 0.125);
   EXPECT_DOUBLE_EQ(health.lidar->field_of_view_rad, 1.75);
   EXPECT_FLOAT_EQ(static_cast<float>(health.lidar->max_range_m), 2.25F);
-  change_each<LaserScan>(log, [](LaserScan& scan) { scan.is_valid.assign(8, 0); });
-  expect_suspicion(log, "100.0 % of the beams are without return");
+  bool is_first = true;
+  change_each<LaserScan>(log, [&is_first](LaserScan& scan) {
+    scan.is_valid.assign(8, 0);
+    scan.is_valid[0] = is_first ? 1 : 0;
+    is_first = false;
+  });
+  expect_suspicion(log, "96.9 % of the beams are without return");
 }
 
 TEST(LogHealth, PlacesRepeatedStampsStepsBackAndGaps) {
@@ -202,6 +207,15 @@ TEST(LogHealth, SuspectsCentimetresAndMillimetresForMetres) {
     for (float& range_m : scan.ranges_m) range_m /= 1000;
   });
   expect_suspicion(twice, "metres taken for centimetres or millimetres?");
+}
+
+TEST(LogHealth, SuspectsUnitsWhereNoBeamHasAReturn) {
+  SensorLog millimetres = sound_log();
+  change_each<LaserScan>(millimetres, [](LaserScan& scan) {
+    std::fill(scan.is_valid.begin(), scan.is_valid.end(), 0);
+    for (float& range_m : scan.ranges_m) range_m *= 1000;
+  });
+  expect_suspicion(millimetres, "no beam of any scan has a return");
 }
 
 TEST(LogHealth, SuspectsGravityInAHorizontalAxis) {

@@ -32,7 +32,9 @@ TEST(Rawlog, ReadUndoesWrite) {
   EXPECT_EQ(read->robot.name, log.robot.name);
   EXPECT_EQ(read->robot.lidar.T_base_lidar, log.robot.lidar.T_base_lidar);
   EXPECT_EQ(read->robot.imu.T_base_imu, log.robot.imu.T_base_imu);
-  EXPECT_TRUE(read->provenance.notes.empty()) << read->provenance.notes.front();
+  const std::vector<std::string> notes = {
+      "4 beams at the LiDAR's limit or beyond taken as no return"};
+  EXPECT_EQ(read->provenance.notes, notes) << read->provenance.notes.front();
 }
 
 TEST(Rawlog, WritingTwiceGivesTheSameBytes) {

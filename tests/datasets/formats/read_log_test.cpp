@@ -8,6 +8,7 @@
 #include "datasets/formats/log_io.hpp"
 #include "datasets/formats/trajectories/tum.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
+#include "tests/datasets/formats/golden_support.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -60,6 +61,69 @@ TEST(ReadLog, KnowsTheOtherLogsThatASidecarBelongsTo) {
   for (const char* name : {"a.clf", "a.tum", "a.b.clf", "ab.clf"}) write_text(folder / name, "x");
   EXPECT_TRUE(namesakes_of(folder / "a.clf").empty());
   EXPECT_EQ(namesakes_of(folder / "a.bag"), std::vector<std::filesystem::path>{folder / "a.clf"});
+}
+
+TEST(ReadLog, RefusesContentThatIsNotTheSuffixs) {
+  const ScratchFolder folder;
+  const auto line_of = [&folder](const std::string& name) {
+    const auto read = read_log(folder / name);
+    return read.has_value() ? "" : read.error().to_line();
+  };
+  const auto [robot, events] = test::golden_parts("lcm/data.lcm");
+  for (const std::string name : {"a.clf", "a.rawlog", "a.bag", "a.dat"}) {
+    write_text(folder / name, events);
+    EXPECT_NE(line_of(name).find(name + ": the file begins as an LCM event log does; expected a "),
+              std::string::npos)
+        << line_of(name);
+  }
+  write_text(folder / "a.log", events);
+  EXPECT_NE(line_of("a.log").find("nothing says what a tick of the wheels means"),
+            std::string::npos);
+}
+
+// Before anybody looks for the calibration that a log of that kind would need.
+TEST(ReadLog, TellsATextThatIsNoLogOfRawNumbersByItsFirstPlace) {
+  const ScratchFolder folder;
+  const std::string text = "ODOM 0 0 0 0 0 0 1 h 1\n";
+  write_text(folder / "a.lcm", text);
+  write_text(folder / "a.dat", text);
+  const auto events = read_log(folder / "a.lcm");
+  ASSERT_FALSE(events.has_value());
+  EXPECT_NE(events.error().to_line().find("a.lcm: byte 0: "), std::string::npos)
+      << events.error().to_line();
+  const auto rows = read_log(folder / "a.dat");
+  ASSERT_FALSE(rows.has_value());
+  EXPECT_NE(rows.error().to_line().find("a.dat:1: 10 tokens; expected 707"), std::string::npos)
+      << rows.error().to_line();
+}
+
+TEST(ReadLog, CountsRangesFromTheLimitOnInEveryFormat) {
+  const ScratchFolder folder;
+  SensorLog log = small_log();
+  std::size_t num_beyond = 0;
+  for (auto& event : log.events) {
+    auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    for (std::size_t i = 0; i < 3; ++i, ++num_beyond) {
+      scan->ranges_m[i] = static_cast<float>(scan->range_max_m) + 1;
+      scan->is_valid[i] = 0;
+    }
+    scan->ranges_m[3] = 1;
+    scan->is_valid[3] = 1;
+    for (std::size_t i = 4; i < scan->num_beams(); ++i) {
+      scan->ranges_m[i] = 0;
+      scan->is_valid[i] = 0;
+    }
+  }
+  for (const char* name : {"a.rawlog", "a.clf", "a.bag"}) {
+    ASSERT_TRUE(write_log(log, folder / name));
+    const auto read = read_log(folder / name);
+    ASSERT_TRUE(read.has_value()) << read.error().to_line();
+    EXPECT_TRUE(notes_contain(
+        *read, std::to_string(num_beyond) + " beams at the LiDAR's limit or beyond taken as no"))
+        << name;
+    EXPECT_TRUE(notes_contain(*read, "16 beams of range 0 taken as no return")) << name;
+  }
 }
 
 // Every defect written to a rawlog and read back: refused in one line that names the file.

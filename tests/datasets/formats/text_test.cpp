@@ -54,5 +54,13 @@ TEST(Fields, AreSeparatedByAnyNumberOfBlanks) {
   EXPECT_TRUE(split_fields("   ").empty());
 }
 
+TEST(Quote, ShowsWhatIsNoPrintableAsciiByItsBytes) {
+  EXPECT_EQ(quote("\xEF\xBB\xBF"
+                  "FLASER"),
+            R"('\xEF\xBB\xBFFLASER')");
+  EXPECT_EQ(quote("a\tb\x7F"), R"('a\x09b\x7F')");
+  EXPECT_EQ(quote("abcdef", 3), "'abc...'");
+}
+
 }  // namespace
 }  // namespace corridor::formats
