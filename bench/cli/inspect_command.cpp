@@ -46,7 +46,7 @@ Result<catalog::LogSource> find(const std::string& log, const CommonOptions& com
   const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   catalog::LoadOptions options;
-  options.accept_other_checksum = true;  // looked at, and said; nothing is scored
+  options.accept_other_checksum = true;  // looked at, and a defect; nothing is scored
   return catalog::find_log(log, common.data_dirs(), *known, options);
 }
 
@@ -70,7 +70,12 @@ Result<ExitCode> InspectCommand::run() const {
   notes.insert(notes.end(), source->notes.begin(), source->notes.end());
 
   const formats::EventPlaces places{std::move(found->origins), found->origin_unit};
-  const formats::LogHealth health = formats::examine(found->log, places);
+  formats::LogHealth health = formats::examine(found->log, places);
+  // By this name nothing else loads it.
+  for (const std::string& line : source->other_checksums) {
+    health.defects.insert(health.defects.begin(),
+                          fmt::format("{}: refused as data set {}", line, source->name));
+  }
   const auto num_relations = num_relations_of(*source, notes);
   const LogReport report{&found->log, &health, num_relations};
   const std::string text =

@@ -28,6 +28,7 @@ using Json = nlohmann::ordered_json;
 struct Listing {
   Json items = Json::array();
   std::vector<std::string> columns;
+  std::string remark;  // below the text form
 };
 
 Json names_of(const std::vector<runner::ProfileInfo>& profiles) {
@@ -37,7 +38,7 @@ Json names_of(const std::vector<runner::ProfileInfo>& profiles) {
 }
 
 Result<Listing> list_systems(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "profiles", "backend", "needs_imu", "description"}};
+  Listing listing{Json::array(), {"name", "profiles", "backend", "needs_imu", "description"}, ""};
   for (const runner::SystemInfo& info : runner::systems()) {
     listing.items.push_back(
         {{"name", info.name},
@@ -64,7 +65,7 @@ Json parameters_of(const std::vector<ParamRow>& rows) {
 }
 
 Result<Listing> list_profiles(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "description"}};
+  Listing listing{Json::array(), {"name", "description"}, ""};
   for (const runner::SystemInfo& info : runner::systems()) {
     for (const runner::ProfileInfo& profile : info.profiles) {
       listing.items.push_back({{"name", info.name + "@" + profile.name},
@@ -78,7 +79,7 @@ Result<Listing> list_profiles(const CommonOptions&) {
 }
 
 Result<Listing> list_backends(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "description"}};
+  Listing listing{Json::array(), {"name", "description"}, ""};
   for (const runner::BackEndInfo& info : runner::back_ends()) {
     listing.items.push_back({{"name", info.name}, {"description", info.description}});
   }
@@ -88,7 +89,9 @@ Result<Listing> list_backends(const CommonOptions&) {
 Result<Listing> list_datasets(const CommonOptions& common) {
   const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
-  Listing listing{Json::array(), {"name", "format", "truth", "is_found", "is_fetchable", "title"}};
+  Listing listing{Json::array(),
+                  {"name", "format", "truth", "is_found", "is_fetchable", "title"},
+                  "is_found: a file of that name is there; data verify compares checksums\n"};
   bool has_own = false;
   for (const catalog::DatasetRow& row : catalog::list_datasets(*known, common.data_dirs())) {
     listing.items.push_back(
@@ -111,7 +114,7 @@ Result<Listing> list_datasets(const CommonOptions& common) {
 }
 
 Result<Listing> list_scenarios(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "family", "description"}};
+  Listing listing{Json::array(), {"name", "family", "description"}, ""};
   for (const std::filesystem::path& path : simulation::list_scenarios()) {
     const Result<simulation::Scenario> scenario = simulation::read_scenario(path);
     if (!scenario) return tl::make_unexpected(scenario.error());
@@ -130,7 +133,7 @@ Result<Listing> list_scenarios(const CommonOptions&) {
 }
 
 Result<Listing> list_suites(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "description"}};
+  Listing listing{Json::array(), {"name", "description"}, ""};
   for (const std::filesystem::path& path : runner::list_suites()) {
     const Result<runner::Suite> suite = runner::read_suite(path);
     if (!suite) return tl::make_unexpected(suite.error());
@@ -150,7 +153,7 @@ Result<Listing> list_suites(const CommonOptions&) {
 }
 
 Result<Listing> list_metrics(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "unit", "meaning"}};
+  Listing listing{Json::array(), {"name", "unit", "meaning"}, ""};
   for (const results::ResultKey& key : results::result_keys()) {
     if (!key.is_metric) continue;
     listing.items.push_back({{"name", key.name}, {"unit", key.unit}, {"meaning", key.meaning}});
@@ -159,7 +162,7 @@ Result<Listing> list_metrics(const CommonOptions&) {
 }
 
 Result<Listing> list_stages(const CommonOptions&) {
-  Listing listing{Json::array(), {"name"}};
+  Listing listing{Json::array(), {"name"}, ""};
   for (const std::string_view name : kStageNames) listing.items.push_back({{"name", name}});
   return listing;
 }
@@ -193,7 +196,7 @@ std::string to_text(const Listing& listing) {
     std::vector<std::string>& row = rows.emplace_back();
     for (const std::string& column : listing.columns) row.push_back(cell_text(item.at(column)));
   }
-  return text_table(rows);
+  return text_table(rows) + listing.remark;
 }
 
 }  // namespace

@@ -23,6 +23,10 @@ constexpr std::size_t kMaxDefectsShown = 20;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
+Json number_or_null(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
 Json stamps_json(const StampHealth& stamps) {
   return {{"num_readings", stamps.num_readings},
           {"first_s", stamps.first_s},
@@ -45,16 +49,20 @@ Json lidar_json(const formats::LidarHealth& lidar) {
           {"median_range_m", lidar.median_range_m},
           {"max_range_m", lidar.max_range_m},
           {"longest_range_at", text_or_null(lidar.longest_range_at)},
-          {"range_limit_m", lidar.range_limit_m}};
+          {"range_limit_m", lidar.range_limit_m},
+          {"num_frozen_scans", lidar.num_frozen_scans},
+          {"frozen_path_m", lidar.frozen_path_m},
+          {"frozen_turn_deg", lidar.frozen_turn_rad * kDegPerRad},
+          {"frozen_until", text_or_null(lidar.frozen_until)}};
 }
 
 Json wheels_json(const formats::WheelHealth& wheels) {
   return {{"has_ticks", wheels.has_ticks},
           {"path_m", wheels.path_m},
           {"turn_deg", wheels.turn_rad * kDegPerRad},
-          {"max_speed_mps", wheels.max_speed_mps},
+          {"max_speed_mps", number_or_null(wheels.max_speed_mps)},
           {"max_speed_at", text_or_null(wheels.max_speed_at)},
-          {"max_yaw_rate_radps", wheels.max_yaw_rate_radps},
+          {"max_yaw_rate_radps", number_or_null(wheels.max_yaw_rate_radps)},
           {"max_yaw_rate_at", text_or_null(wheels.max_yaw_rate_at)},
           {"num_jumps", wheels.num_jumps}};
 }
@@ -74,7 +82,10 @@ Json imu_json(const formats::ImuHealth& imu) {
 Json truth_json(const formats::TruthHealth& truth) {
   return {{"num_poses", truth.num_poses},
           {"path_m", truth.path_m},
-          {"scans_with_pose_ratio", truth.scans_with_pose_ratio}};
+          {"scans_with_pose_ratio", truth.scans_with_pose_ratio},
+          {"num_fast_steps", truth.num_fast_steps},
+          {"common_path_m", truth.common_path_m},
+          {"common_wheel_path_m", truth.common_wheel_path_m}};
 }
 
 // Stamps of a sensor and what else is known of it; null for a sensor that the log does not have.
@@ -93,6 +104,10 @@ Json robot_json(const RobotModel& robot) {
 }
 
 std::string number_text(double value) { return fmt::format("{:.3f}", value); }
+
+std::string number_or_dash(const std::optional<double>& value) {
+  return value ? number_text(*value) : "-";
+}
 
 std::string stamp_rows(const formats::LogHealth& health) {
   std::vector<std::vector<std::string>> rows{{"sensor", "readings", "from [s]", "to [s]",
@@ -130,10 +145,10 @@ std::string line_of(const formats::LidarHealth& lidar) {
 
 std::string line_of(const formats::WheelHealth& wheels) {
   return fmt::format(
-      "wheels: {} m, turns of {:.1f} deg in all, at most {:.3f} m/s and {:.3f} rad/s, {} jumps, "
-      "{}\n",
-      number_text(wheels.path_m), wheels.turn_rad * kDegPerRad, wheels.max_speed_mps,
-      wheels.max_yaw_rate_radps, wheels.num_jumps, wheels.has_ticks ? "with ticks" : "poses only");
+      "wheels: {} m, turns of {:.1f} deg in all, at most {} m/s and {} rad/s, {} jumps, {}\n",
+      number_text(wheels.path_m), wheels.turn_rad * kDegPerRad,
+      number_or_dash(wheels.max_speed_mps), number_or_dash(wheels.max_yaw_rate_radps),
+      wheels.num_jumps, wheels.has_ticks ? "with ticks" : "poses only");
 }
 
 std::string line_of(const formats::ImuHealth& imu) {

@@ -47,9 +47,7 @@ Result<CaseData> recorded_data(const CaseSpec& spec, const catalog::DataDirs& di
   if (!loaded) return tl::make_unexpected(loaded.error());
   CaseData data;
   data.log = std::move(loaded->log);
-  for (const std::string& suspicion : formats::examine(data.log).suspicions) {
-    data.log.provenance.notes.push_back("suspicious: " + suspicion);
-  }
+  data.suspicions = formats::examine(data.log).suspicions;
   if (loaded->relations) data.relations = std::move(*loaded->relations);
   if (loaded->world_file) {
     Result<simulation::SimulationTruth> truth = simulation::read_truth(*loaded->world_file);

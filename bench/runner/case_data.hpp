@@ -22,6 +22,8 @@ struct CaseData {
   std::vector<formats::Relation> relations;
   std::optional<simulation::World> world;
   std::optional<simulation::SimulationTruth> simulation_truth;
+  // What looks wrong in a recorded log or its truth, and may make of a sound system a bad score.
+  std::vector<std::string> suspicions;
 };
 
 // catalog::load_dataset(), but a folder is told to be one.

@@ -220,6 +220,8 @@ tl::expected<RunResult, CaseFailure> run_case(const CaseSpec& spec, const catalo
     result.true_poses = data->log.provenance.is_truth_reference ? "reference" : "truth";
   }
   result.notes = score(*data, run, rendered_map, result);
+  for (const std::string& line : data->suspicions)
+    result.notes.push_back("suspicious data: " + line);
   score_cost(run, (*system)->stage_clock(), data->log.duration_s(), result);
   settle_status(*data, run, result);
 

@@ -68,6 +68,9 @@ Result<LoadedDataset> load_file(const LogSource& source, const std::optional<std
   loaded.log = std::move(*read);
   loaded.name = loaded.log.provenance.name = source.name;
   auto& notes = loaded.log.provenance.notes;
+  for (const std::string& line : source.other_checksums) {
+    notes.push_back(line + ", accepted on request");
+  }
   notes.insert(notes.end(), source.notes.begin(), source.notes.end());
   if (const auto file = formats::find_sidecar(log, ".relations", source.options)) {
     auto relations = formats::read_relations(*file);
@@ -91,11 +94,11 @@ Result<std::filesystem::path> folder_of(const CatalogEntry& entry, const DataDir
 }
 
 // Every file of the entry must be there and be the catalogue's; otherwise a result would carry the
-// name of data it was not made from. Returns notes on what was let through.
+// name of data it was not made from. Returns a line for each other file that was let through.
 Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
                                              const std::filesystem::path& folder,
                                              bool accept_other_checksum) {
-  std::vector<std::string> notes;
+  std::vector<std::string> other_checksums;
   for (const DataFile& file : entry.files) {
     const std::filesystem::path path = folder / file.path;
     if (!is_file(path)) {
@@ -111,10 +114,10 @@ Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
                   fmt::format("data set {}: SHA-256 is {}", entry.name, *sha256), path.string(),
                   file.sha256);
     }
-    notes.push_back(fmt::format("{}: SHA-256 {} is not the catalogue's, accepted on request",
-                                path.string(), *sha256));
+    other_checksums.push_back(
+        fmt::format("{}: SHA-256 {} is not the catalogue's", path.string(), *sha256));
   }
-  return notes;
+  return other_checksums;
 }
 
 // Only what the catalogue lists is taken along: of the rest it has no checksum.
@@ -153,10 +156,11 @@ Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
   }
   const auto folder = folder_of(entry, dirs);
   if (!folder) return tl::make_unexpected(folder.error());
-  auto notes = check_files(entry, *folder, options.accept_other_checksum);
-  if (!notes) return tl::make_unexpected(notes.error());
-  LogSource source{entry.name, *folder / entry.files.front().path, {}, std::move(*notes)};
-  const bool is_other = !source.notes.empty() && entry.order_of_other_files.has_value();
+  auto other_checksums = check_files(entry, *folder, options.accept_other_checksum);
+  if (!other_checksums) return tl::make_unexpected(other_checksums.error());
+  LogSource source{
+      entry.name, *folder / entry.files.front().path, {}, {}, std::move(*other_checksums)};
+  const bool is_other = !source.other_checksums.empty() && entry.order_of_other_files.has_value();
   formats::ReadLogOptions& read = source.options;
   read.order = options.order.value_or(is_other ? *entry.order_of_other_files : entry.order);
   read.no_return_range_m = entry.no_return_range_m;
@@ -177,7 +181,7 @@ Result<LogSource> find_path(const std::filesystem::path& path, const Catalog& ca
                 fmt::format("a file, or one of `data list`; the nearest names: {}",
                             fmt::join(nearest_names(path.string(), names_of(catalog)), ", ")));
   }
-  LogSource source{formats::sidecar_of(path, "").filename().string(), path, {}, {}};
+  LogSource source{formats::sidecar_of(path, "").filename().string(), path, {}, {}, {}};
   source.options.order = options.order.value_or(formats::StampOrder::kStamp);
   return source;
 }
@@ -225,8 +229,8 @@ Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataD
   }
   const auto folder = folder_of(*entry, dirs);
   if (!folder) return tl::make_unexpected(folder.error());
-  const auto notes = check_files(*entry, *folder, false);
-  if (!notes) return tl::make_unexpected(notes.error());
+  const auto checked = check_files(*entry, *folder, false);
+  if (!checked) return tl::make_unexpected(checked.error());
   return formats::read_pose_graph(*folder / entry->files.front().path);
 }
 

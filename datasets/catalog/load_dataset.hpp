@@ -51,7 +51,9 @@ struct LogSource {
   std::string name;
   std::filesystem::path path;
   formats::ReadLogOptions options;
-  std::vector<std::string> notes;  // what was let through
+  std::vector<std::string> notes;  // what was left
+  // One line per file that is not the catalogue's; empty but with accept_other_checksum.
+  std::vector<std::string> other_checksums;
 };
 Result<LogSource> find_log(std::string_view name_or_path, const DataDirs& dirs,
                            const Catalog& catalog, const LoadOptions& options = {});

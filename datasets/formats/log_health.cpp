@@ -8,8 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "datasets/formats/frozen_scans.hpp"
 #include "datasets/formats/log_suspicions.hpp"
 #include "datasets/formats/median.hpp"
+#include "datasets/formats/truth_health.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -20,7 +22,6 @@ constexpr double kTurnWindow_s = 1;
 // Of a window: on straight ways unequal wheels drift, and there is no turn to compare.
 constexpr double kLeastWindowTurn_rad = 0.05;
 constexpr double kLeastTurn_rad = 0.5;
-constexpr std::int64_t kNearTruth_ns = 10'000'000;
 
 // 0 for nothing; of an even number the upper of the two in the middle.
 template <class T>
@@ -134,12 +135,14 @@ struct WheelWindow {
 };
 
 void take_window(const WheelWindow& window, const std::string& place, WheelHealth& health) {
-  if (window.path_m / window.duration_s > health.max_speed_mps) {
-    health.max_speed_mps = window.path_m / window.duration_s;
+  const double speed_mps = window.path_m / window.duration_s;
+  const double yaw_rate_radps = window.turn_rad / window.duration_s;
+  if (!health.max_speed_mps || speed_mps > *health.max_speed_mps) {
+    health.max_speed_mps = speed_mps;
     health.max_speed_at = place;
   }
-  if (window.turn_rad / window.duration_s > health.max_yaw_rate_radps) {
-    health.max_yaw_rate_radps = window.turn_rad / window.duration_s;
+  if (!health.max_yaw_rate_radps || yaw_rate_radps > *health.max_yaw_rate_radps) {
+    health.max_yaw_rate_radps = yaw_rate_radps;
     health.max_yaw_rate_at = place;
   }
 }
@@ -166,6 +169,10 @@ WheelHealth wheels_of(const std::vector<Placed<WheelSample>>& samples, const Log
     if (window.duration_s < limits.speed_window_s) continue;
     take_window(window, places.of(samples[i].index), health);
     window = {};
+  }
+  // A log shorter than one window is judged as a whole.
+  if (!health.max_speed_mps && window.duration_s > 0) {
+    take_window(window, places.of(samples.back().index), health);
   }
   return health;
 }
@@ -255,27 +262,6 @@ ImuHealth imu_of(const SensorLog& log, const std::vector<Placed<ImuSample>>& sam
   return health;
 }
 
-TruthHealth truth_of(const Trajectory& truth, const std::vector<Placed<LaserScan>>& scans) {
-  TruthHealth health;
-  health.num_poses = truth.size();
-  health.path_m = truth.path_length_m();
-  const auto& poses = truth.poses();
-  std::size_t num_near = 0;
-  for (const auto& [scan, index] : scans) {
-    const std::int64_t stamp_ns = scan->stamp.nanoseconds;
-    const auto next = std::lower_bound(
-        poses.begin(), poses.end(), Timestamp{stamp_ns - kNearTruth_ns},
-        [](const TrajectoryPose& pose, Timestamp stamp) { return pose.stamp < stamp; });
-    const bool is_near = next != poses.end() && next->stamp.nanoseconds <= stamp_ns + kNearTruth_ns;
-    num_near += is_near ? 1 : 0;
-  }
-  if (!scans.empty()) {
-    health.scans_with_pose_ratio =
-        static_cast<double>(num_near) / static_cast<double>(scans.size());
-  }
-  return health;
-}
-
 }  // namespace
 
 std::string EventPlaces::of(std::size_t event_index) const {
@@ -303,10 +289,17 @@ LogHealth examine(const SensorLog& log, const EventPlaces& places, const LogLimi
   health.lidar_stamps = stamps_of(scans, places);
   health.wheel_stamps = stamps_of(wheels, places);
   health.imu_stamps = stamps_of(imu, places);
-  if (!scans.empty()) health.lidar = lidar_of(scans, places);
+  if (!scans.empty()) {
+    health.lidar = lidar_of(scans, places);
+    const FrozenScans frozen = longest_frozen_scans(log);
+    health.lidar->num_frozen_scans = frozen.num_scans;
+    health.lidar->frozen_path_m = frozen.moved_m;
+    health.lidar->frozen_turn_rad = frozen.turned_rad;
+    if (frozen.num_scans > 0) health.lidar->frozen_until = places.of(frozen.last_event_index);
+  }
   if (!wheels.empty()) health.wheels = wheels_of(wheels, limits, places);
   if (!imu.empty()) health.imu = imu_of(log, imu, places);
-  if (log.truth) health.truth = truth_of(*log.truth, scans);
+  if (log.truth) health.truth = truth_health_of(log, limits);
   for (std::string& line : defects(log, limits, max_defects)) {
     health.defects.push_back(places.placed(std::move(line)));
   }

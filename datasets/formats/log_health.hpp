@@ -55,15 +55,22 @@ struct LidarHealth {
   double most_shared_ratio = 0;
   std::size_t num_most_shared = 0;
   std::string longest_range_at;
+  // Of successive scans that are exactly the same, the run in which the wheels get farthest.
+  std::size_t num_frozen_scans = 0;
+  double frozen_path_m = 0;
+  double frozen_turn_rad = 0;
+  std::string frozen_until;
 };
 
 struct WheelHealth {
   bool has_ticks = false;
-  double path_m = 0;         // sum of the steps
-  double turn_rad = 0;       // sum of the steps' turns, both directions counted as positive
-  double max_speed_mps = 0;  // over 0.2 s or a step, whichever is longer; so is the next
+  double path_m = 0;    // sum of the steps
+  double turn_rad = 0;  // sum of the steps' turns, both directions counted as positive
+  // Over 0.2 s or a step, whichever is longer, or over a log that is shorter; nullopt where no time
+  // passes. So is the next.
+  std::optional<double> max_speed_mps;
   std::string max_speed_at;
-  double max_yaw_rate_radps = 0;
+  std::optional<double> max_yaw_rate_radps;
   std::string max_yaw_rate_at;
   std::size_t num_jumps = 0;  // steps faster than LogLimits
 };
@@ -84,6 +91,11 @@ struct TruthHealth {
   std::size_t num_poses = 0;
   double path_m = 0;
   double scans_with_pose_ratio = 0;  // a true pose within 10 ms
+  std::size_t num_fast_steps = 0;    // faster than LogLimits
+  double first_fast_step_s = 0;      // stamp of the pose after it
+  // Of truth and wheels between the same times, a second or more apart; 0 without wheels.
+  double common_path_m = 0;
+  double common_wheel_path_m = 0;
 };
 
 struct LogHealth {

@@ -31,6 +31,16 @@ constexpr double kSameRate_factor = 2;
 // Robots that drive on floors: no smaller than a hand, no larger than a car.
 constexpr double kNarrowestTrack_m = 0.03;
 constexpr double kLargestRobot_m = 3;
+// As few as make a score of `run` doubtful.
+constexpr double kFewPoses_ratio = 0.5;
+// Feet for metres, the units that differ least, make 3.28; to make 3, wheels would have to slip
+// over two thirds of their way, and a drive of less than this may be a push or a turn of one wheel.
+constexpr double kOtherPath_factor = 3;
+constexpr double kLeastPath_m = 1;
+// A scan that stays the same to the last bit of 32 over as long a way or turn: noise alone changes
+// it, and without noise only a corridor without ends does not.
+constexpr double kFrozenPath_m = 0.5;
+constexpr double kFrozenTurn_rad = 0.5;
 
 class Suspicions {
  public:
@@ -45,9 +55,7 @@ class Suspicions {
     if (health_.wheels) suspect_wheels(*health_.wheels);
     if (health_.imu) suspect_imu(*health_.imu);
     suspect_robot();
-    if (health_.truth && health_.truth->scans_with_pose_ratio == 0) {
-      add("truth: no scan has a true pose within 10 ms; another clock, unit or log?");
-    }
+    if (health_.truth) suspect_truth(*health_.truth);
     return std::move(found_);
   }
 
@@ -68,6 +76,32 @@ class Suspicions {
     if (distance_m < kLargestRobot_m) return;
     add(fmt::format("robot model: a {} {} m away from the base; another unit?", sensor,
                     distance_m));
+  }
+
+  void suspect_truth(const TruthHealth& truth) {
+    if (truth.scans_with_pose_ratio == 0) {
+      add("truth: no scan has a true pose within 10 ms; another clock, unit or log?");
+    } else if (truth.scans_with_pose_ratio < kFewPoses_ratio) {
+      add(
+          fmt::format("truth: {:.1f} % of the scans have a true pose within 10 ms; cut short, or "
+                      "another clock?",
+                      100 * truth.scans_with_pose_ratio));
+    }
+    if (truth.num_fast_steps > 0) {
+      add(fmt::format(
+          "truth: {} steps faster than {} m/s, the first until {:.3f} s; centimetres or "
+          "millimetres for metres, or a jump?",
+          truth.num_fast_steps, limits_.max_speed_mps, truth.first_fast_step_s));
+    }
+    const double ratio = truth.common_path_m / truth.common_wheel_path_m;
+    if (truth.common_wheel_path_m < kLeastPath_m ||
+        (ratio < kOtherPath_factor && ratio > 1 / kOtherPath_factor)) {
+      return;
+    }
+    add(fmt::format(
+        "truth: a path {:.4g} times as long as that of the wheels ({:.3f} m, {:.3f} m); "
+        "another unit, or another log's?",
+        ratio, truth.common_path_m, truth.common_wheel_path_m));
   }
 
   void suspect_stamps(const char* sensor, const StampHealth& stamps) {
@@ -122,6 +156,12 @@ class Suspicions {
           lidar.num_most_shared, 100 * lidar.most_shared_ratio, lidar.most_shared_range_m,
           lidar.range_limit_m));
     }
+    if (lidar.frozen_path_m > kFrozenPath_m || lidar.frozen_turn_rad > kFrozenTurn_rad) {
+      add(fmt::format(
+          "LiDAR: {} scans until {} are exactly the same while the wheels move {:.3f} m "
+          "and turn {:.3f} rad; a sensor that hangs?",
+          lidar.num_frozen_scans, lidar.frozen_until, lidar.frozen_path_m, lidar.frozen_turn_rad));
+    }
     const double step_s = health_.lidar_stamps.median_step_s;
     if (step_s > 0 && std::abs(robot_.lidar.scan_duration_s) > kSameRate_factor * step_s) {
       add(fmt::format("robot model: a sweep of {} s, but a scan every {:.4f} s",
@@ -134,11 +174,11 @@ class Suspicions {
       add(
           fmt::format("wheels: {:.2f} m/s ({}); centimetres or millimetres for metres, a jump, or "
                       "stamps in another unit?",
-                      wheels.max_speed_mps, wheels.max_speed_at));
+                      *wheels.max_speed_mps, wheels.max_speed_at));
     }
     if (wheels.max_yaw_rate_radps > limits_.max_yaw_rate_radps) {
       add(fmt::format("wheels: a turn at {:.2f} rad/s ({}); degrees for radians?",
-                      wheels.max_yaw_rate_radps, wheels.max_yaw_rate_at));
+                      *wheels.max_yaw_rate_radps, wheels.max_yaw_rate_at));
     }
   }
 

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
+
+#include "slam/core/same_reading.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -80,7 +83,7 @@ std::vector<std::int64_t> isotonic_stamps(const std::vector<std::int64_t>& stamp
 }
 
 Result<void> check_stamp_order(const ParsedLog& log, const std::string& file) {
-  std::array<std::optional<Timestamp>, kNumSensors> last_of_sensor;
+  std::array<std::optional<std::size_t>, kNumSensors> last_of_sensor;
   std::optional<Timestamp> last;
   for (std::size_t i = 0; i < log.events.size(); ++i) {
     const Timestamp stamp = stamp_of(log.events[i]);
@@ -91,11 +94,15 @@ Result<void> check_stamp_order(const ParsedLog& log, const std::string& file) {
                   fmt::format("stamp steps back by {:.6f} s", seconds_between(stamp, *last)), where,
                   "stamps in order (a catalogue entry with order = \"file\" keeps the rows')");
     }
-    if (last_here && stamp == *last_here) {
-      return fail(ErrorCode::kInvalid, "stamp repeats that of the sensor's last reading", where,
-                  "a later one (a catalogue entry with order = \"file\" keeps the rows')");
+    if (last_here && stamp == stamp_of(log.events[*last_here])) {
+      const std::string_view other = difference_of(log.events[*last_here], log.events[i]);
+      return fail(ErrorCode::kInvalid,
+                  fmt::format("stamp repeats that of the sensor's last reading{}{}",
+                              other.empty() ? "" : ", which has ", other),
+                  where, "a later one (a catalogue entry with order = \"file\" keeps the rows')");
     }
-    last = last_here = stamp;
+    last = stamp;
+    last_here = i;
   }
   return {};
 }

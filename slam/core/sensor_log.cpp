@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
+
+#include "slam/core/same_reading.hpp"
 
 namespace corridor {
 namespace {
@@ -57,8 +60,9 @@ std::optional<std::string> defect(const ImuSample& sample) {
 
 class DefectFinder {
  public:
-  DefectFinder(const LogLimits& limits, std::size_t max_lines)
-      : limits_(limits), max_lines_(max_lines) {}
+  DefectFinder(const std::vector<SensorEvent>& events, const LogLimits& limits,
+               std::size_t max_lines)
+      : events_(events), limits_(limits), max_lines_(max_lines) {}
 
   void add(std::string line) {
     if (found_.size() < max_lines_) found_.push_back(std::move(line));
@@ -75,15 +79,26 @@ class DefectFinder {
     }
   }
 
+  // What is left of the wheels after the last full window; of a short log, all of it. In so short a
+  // time a clock that jitters may make up a jump or a part of a window, but no more.
+  void check_rest() {
+    if (window_.duration_s <= 0) return;
+    const double longest_m = limits_.max_speed_mps * window_.duration_s + limits_.max_jump_m;
+    if (window_.path_m > longest_m && !window_.has_jump) add_speed(last_wheel_index_);
+    if (window_.turn_rad > limits_.max_yaw_rate_radps * limits_.speed_window_s) {
+      add_yaw_rate(last_wheel_index_);
+    }
+  }
+
   // A sensor that begins long after the log or ends long before it is a log cut or badly joined.
-  void check_span(const std::vector<SensorEvent>& events) {
-    const Timestamp begin = stamp_of(events.front());
-    const Timestamp end = stamp_of(events.back());
+  void check_span() {
+    const Timestamp begin = stamp_of(events_.front());
+    const Timestamp end = stamp_of(events_.back());
     for (const auto& [sensor, first] : first_of_sensor_) {
       const Place& last = last_place_of_sensor_.at(sensor);
       const double late_s = seconds_between(begin, first.stamp);
       const double early_s = seconds_between(last.stamp, end);
-      const char* name = name_of(events[first.event_index]);
+      const char* name = name_of(events_[first.event_index]);
       if (late_s > limits_.max_gap_s) {
         add(
             fmt::format("event {}: the first {} comes {:.3f} s after the log's first reading; "
@@ -126,8 +141,11 @@ class DefectFinder {
     if (last_of_sensor) {
       const double step_s = seconds_between(*last_of_sensor, stamp);
       if (step_s == 0) {
-        add(fmt::format("event {}: {} repeats the stamp of the one before; expected a later one",
-                        index, name_of(event)));
+        const SensorEvent& before = events_[last_place_of_sensor_.at(event.index()).event_index];
+        const std::string_view other = difference_of(before, event);
+        add(fmt::format(
+            "event {}: {} repeats the stamp of the one before{}{}; expected a later one", index,
+            name_of(event), other.empty() ? "" : ", which has ", other));
       } else if (step_s > limits_.max_gap_s) {
         add(fmt::format("event {}: gap of {:.3f} s between two {}s; expected at most {} s", index,
                         step_s, name_of(event), limits_.max_gap_s));
@@ -151,6 +169,7 @@ class DefectFinder {
       if (step_s > 0) check_step(index, step_s, step);
     }
     last_wheel_ = sample;
+    last_wheel_index_ = index;
   }
 
   void check_step(std::size_t index, double step_s, const Pose2& step) {
@@ -171,15 +190,19 @@ class DefectFinder {
   void check_window(std::size_t index) {
     const double speed_mps = window_.path_m / window_.duration_s;
     const double yaw_rate_radps = window_.turn_rad / window_.duration_s;
-    if (speed_mps > limits_.max_speed_mps && !window_.has_jump) {
-      add(fmt::format("event {}: odometry moves {:.3f} m in {:.4f} s; expected at most {} m/s",
-                      index, window_.path_m, window_.duration_s, limits_.max_speed_mps));
-    }
-    if (yaw_rate_radps > limits_.max_yaw_rate_radps) {
-      add(fmt::format(
-          "event {}: odometry turns {:.3f} rad in {:.4f} s; expected at most {} rad/s (degrees?)",
-          index, window_.turn_rad, window_.duration_s, limits_.max_yaw_rate_radps));
-    }
+    if (speed_mps > limits_.max_speed_mps && !window_.has_jump) add_speed(index);
+    if (yaw_rate_radps > limits_.max_yaw_rate_radps) add_yaw_rate(index);
+  }
+
+  void add_speed(std::size_t index) {
+    add(fmt::format("event {}: odometry moves {:.3f} m in {:.4f} s; expected at most {} m/s", index,
+                    window_.path_m, window_.duration_s, limits_.max_speed_mps));
+  }
+
+  void add_yaw_rate(std::size_t index) {
+    add(fmt::format(
+        "event {}: odometry turns {:.3f} rad in {:.4f} s; expected at most {} rad/s (degrees?)",
+        index, window_.turn_rad, window_.duration_s, limits_.max_yaw_rate_radps));
   }
 
   void check(std::size_t index, const ImuSample& sample) {
@@ -194,6 +217,7 @@ class DefectFinder {
     }
   }
 
+  const std::vector<SensorEvent>& events_;
   const LogLimits& limits_;
   std::size_t max_lines_;
   std::vector<std::string> found_;
@@ -203,6 +227,7 @@ class DefectFinder {
   std::map<std::size_t, Place> first_of_sensor_;
   std::map<std::size_t, Place> last_place_of_sensor_;
   std::optional<WheelSample> last_wheel_;
+  std::size_t last_wheel_index_ = 0;
   Window window_;
 };
 
@@ -227,14 +252,17 @@ double SensorLog::duration_s() const {
 
 std::vector<std::string> defects(const SensorLog& log, const LogLimits& limits,
                                  std::size_t max_lines) {
-  DefectFinder finder(limits, max_lines);
+  DefectFinder finder(log.events, limits, max_lines);
   for (std::string& line : violations(log.robot)) finder.add("robot model: " + line);
   if (log.events.empty()) finder.add("the log has no events; expected at least one scan");
   if (!log.events.empty() && log.num_scans() == 0) {
     finder.add("the log has no LiDAR scan; expected at least one");
   }
   for (std::size_t i = 0; i < log.events.size(); ++i) finder.visit(i, log.events[i]);
-  if (!log.events.empty()) finder.check_span(log.events);
+  if (!log.events.empty()) {
+    finder.check_rest();
+    finder.check_span();
+  }
   return finder.take();
 }
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "datasets/formats/degree_check.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "datasets/formats/graphs/pose_graph_vocabulary.hpp"
@@ -103,6 +104,7 @@ class PoseGraphParser {
       numbers[i] = *number;
     }
     if (std::abs(numbers[2]) > std::numbers::pi) ++num_wrapped_;
+    degrees_.take(numbers[2]);
     return Pose2(numbers[0], numbers[1], numbers[2]);
   }
 
@@ -198,6 +200,7 @@ class PoseGraphParser {
     note(num_repeated_pairs(graph_), "edges repeat a pair of poses; all are kept");
     note(num_singular_, "edges with singular information leave directions free");
     note(num_wrapped_, "angles wrapped to (-pi, pi]");
+    if (auto degrees = degrees_.note()) graph_.notes.push_back(std::move(*degrees));
     const std::size_t parts = num_parts(graph_);
     note(parts > 1 ? parts : 0, "parts that no edge joins");
   }
@@ -214,6 +217,7 @@ class PoseGraphParser {
   std::vector<std::size_t> fix_lines_;
   std::size_t num_wrapped_ = 0;
   std::size_t num_singular_ = 0;
+  DegreeCheck degrees_;
 };
 
 }  // namespace

@@ -20,6 +20,7 @@
 
 #include "datasets/formats/rawlog/rawlog.hpp"
 #include "datasets/formats/rawlog/rawlog_framing.hpp"
+#include "datasets/formats/rawlog/stated_readings.hpp"
 #include "datasets/formats/text.hpp"
 
 namespace corridor::formats {
@@ -54,6 +55,12 @@ class RawlogParser {
   Result<ParsedLog> finish() {
     // Actions behind the last frame have nothing but their own stamp.
     if (pending_stamp_) log_.add(WheelSample{*pending_stamp_, T_odom_base_, {}}, offset_);
+    if (num_stated_ && *num_stated_ != log_.events.size()) {
+      return fail(
+          ErrorCode::kMalformed, fmt::format("{} readings", log_.events.size()), file_,
+          fmt::format("{}, as the log's own comment says: it was cut, or its objects changed",
+                      *num_stated_));
+    }
     return std::move(log_);
   }
 
@@ -89,6 +96,9 @@ class RawlogParser {
     if (log_.robot_toml || !log_.events.empty()) {
       ++log_.left_out["later comments left out"];
     } else {
+      const auto stated = stated_readings(comment.text, fmt::format("{}: byte {}", file_, offset_));
+      if (!stated) return tl::make_unexpected(stated.error());
+      num_stated_ = *stated;
       log_.robot_toml = comment.text;
     }
     return {};
@@ -247,6 +257,7 @@ class RawlogParser {
   const std::string& file_;
   std::size_t offset_ = 0;
   ParsedLog log_;
+  std::optional<std::uint64_t> num_stated_;
   std::optional<std::string> lidar_label_;
   // Actions since the last sensory frame.
   Pose2 T_odom_base_;

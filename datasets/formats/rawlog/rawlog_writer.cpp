@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "datasets/formats/rawlog/rawlog.hpp"
+#include "datasets/formats/rawlog/stated_readings.hpp"
 #include "datasets/formats/robot_toml.hpp"
 
 namespace corridor::formats {
@@ -142,7 +143,8 @@ Result<std::string> rawlog_bytes(const SensorLog& log) {
   try {
     RawlogWriter writer(log.robot);
     const Timestamp begin = log.events.empty() ? Timestamp{} : stamp_of(log.events.front());
-    writer.write_comment(robot_to_toml(robot_of_file(log)), begin);
+    writer.write_comment(
+        stated_readings_line(log.events.size()) + robot_to_toml(robot_of_file(log)), begin);
     for (std::size_t i = 0; i < log.events.size(); ++i) {
       const bool fits = std::visit([&writer](const auto& reading) { return writer.write(reading); },
                                    log.events[i]);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "datasets/formats/carmen/carmen.hpp"
+#include "datasets/formats/degree_check.hpp"
 #include "datasets/formats/text.hpp"
 #include "datasets/formats/trajectories/trajectory_rules.hpp"
 #include "datasets/formats/trajectories/trajectory_texts.hpp"
@@ -56,7 +57,8 @@ Result<Place> place_of(Fields fields, const std::string& where) {
   return Place{next, next + kNumPoseNumbers + kNumMotionNumbers + kNumStampFields};
 }
 
-Result<void> take_pose(Fields fields, const std::string& where, Trajectory& trajectory) {
+Result<void> take_pose(Fields fields, const std::string& where, Trajectory& trajectory,
+                       DegreeCheck& degrees) {
   const auto place = place_of(fields, where);
   if (!place) return tl::make_unexpected(place.error());
   if (fields.size() != place->num_fields) {
@@ -73,6 +75,7 @@ Result<void> take_pose(Fields fields, const std::string& where, Trajectory& traj
   if (!stamp) {
     return fail(ErrorCode::kMalformed, "stamp " + quote(stamp_field), where, "decimal seconds");
   }
+  degrees.take(numbers[2]);
   return append_pose(trajectory, *stamp, Pose2(numbers[0], numbers[1], numbers[2]), stamp_field,
                      where);
 }
@@ -84,6 +87,7 @@ Result<ReadTrajectory> parse_carmen_trajectory(std::string_view text, const std:
   if (auto note = note_on_end(text)) read.notes.push_back(std::move(*note));
   std::map<std::string, std::size_t, std::less<>> num_left_out;
   std::string kind;  // of the lines that give poses: the first kind that comes
+  DegreeCheck degrees;
   std::size_t line_number = 0;
   while (const auto line = take_line(text)) {
     const std::string where = fmt::format("{}:{}", name, ++line_number);
@@ -99,13 +103,14 @@ Result<ReadTrajectory> parse_carmen_trajectory(std::string_view text, const std:
       ++num_left_out[std::string(fields[0])];
       continue;
     }
-    if (auto taken = take_pose(fields, where, read.trajectory); !taken) {
+    if (auto taken = take_pose(fields, where, read.trajectory, degrees); !taken) {
       return tl::make_unexpected(taken.error());
     }
   }
   for (const auto& [message, count] : num_left_out) {
     read.notes.push_back(fmt::format("{} {} lines left out", count, message));
   }
+  if (auto note = degrees.note()) read.notes.push_back(std::move(*note));
   if (auto good = check_stamp_unit(read.trajectory, name, "seconds"); !good) {
     return tl::make_unexpected(good.error());
   }

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include "datasets/formats/atomic_file.hpp"
+#include "datasets/formats/degree_check.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/text.hpp"
 #include "slam/core/sensor_log.hpp"
@@ -20,15 +20,12 @@ namespace {
 constexpr std::size_t kNumFields = 8;
 constexpr const char* kLayout = "'t1 t2 dx dy dz droll dpitch dyaw'";
 
-// Whole turns are written by some, more is degrees for radians.
-constexpr double kMaxTurn_rad = 2 * std::numbers::pi + 1e-3;
-
 Result<void> check_motion(const Relation& relation, double dyaw_rad, const std::string& where) {
   const double time_s = std::abs(seconds_between(relation.t1, relation.t2));
   if (relation.t1 == relation.t2) {
     return fail(ErrorCode::kInvalid, "t1 and t2 are the same time", where, "two times of the log");
   }
-  if (std::abs(dyaw_rad) > kMaxTurn_rad) {
+  if (std::abs(dyaw_rad) > kWholeTurn_rad) {
     return fail(ErrorCode::kInvalid, fmt::format("a turn of {} rad", dyaw_rad), where,
                 "at most 2 pi (degrees for radians?)");
   }

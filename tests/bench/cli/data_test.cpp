@@ -1,4 +1,5 @@
 // The commands about data: fetching from a server of the test's own, and looking at logs.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -110,6 +111,28 @@ TEST_F(DataCommand, InspectOfADatasetByNameSaysThatItIsFit) {
   EXPECT_TRUE(report.at("robot_model").at("lidar").contains("range_max_m"));
 }
 
+TEST_F(DataCommand, InspectOfADatasetWithOtherBytesSaysThatItIsRefusedByThisName) {
+  folder_.write("data/sub/here.clf", std::string(kLog) + "# another version\n");
+  const Answer answer = run("data inspect here --data-dir data");
+  EXPECT_EQ(answer.exit_code, 1) << answer.err;
+  EXPECT_NE(answer.out.find("is not the catalogue's: refused as data set here\nnot fit, 1 defects"),
+            std::string::npos)
+      << answer.out;
+  EXPECT_EQ(answer.out.find("on request"), std::string::npos) << answer.out;
+  EXPECT_NE(answer.out.find("LiDAR: 4 beams"), std::string::npos) << answer.out;
+}
+
+TEST_F(DataCommand, ListSaysThatItComparesNoChecksums) {
+  folder_.write("data/sub/here.clf", "something else");
+  const Answer text = run("data list --data-dir data");
+  EXPECT_NE(
+      text.out.find("\nis_found: a file of that name is there; data verify compares checksums\n"),
+      std::string::npos)
+      << text.out;
+  const auto rows = nlohmann::json::parse(run("data list --json --data-dir data").out);
+  EXPECT_EQ(rows.at(0).at("is_found"), true);
+}
+
 TEST_F(DataCommand, InspectListsTheDefectsOfALogThatNothingElseTakes) {
   folder_.write("bad.clf", std::string(kLog) + "FLASER 3 1 1 1 0.1 0 0 0.1 0 0 0.5 host 0.5\n");
   const Answer text = run("data inspect bad.clf");
@@ -183,6 +206,24 @@ TEST_F(DataCommand, ConvertTakesOtherBytesUnderAKnownNameOnlyIfAskedTo) {
   EXPECT_EQ(asked.exit_code, 0) << asked.err;
   EXPECT_NE(asked.out.find("accepted on request"), std::string::npos) << asked.out;
   EXPECT_TRUE(fs::exists(folder_ / "own.clf"));
+}
+
+TEST(RunOnALog, WhoseTruthIsInCentimetresSaysSoBesideTheStatus) {
+  const ScratchFolder folder;
+  std::string log, truth;
+  for (int i = 0; i <= 40; ++i) {
+    log += fmt::format("FLASER 4 1 1 1 {0} {1} 0 0 {1} 0 0 {2} host {2}\n", 2 + 0.01 * i, 0.05 * i,
+                       1 + 0.1 * i);
+    truth += fmt::format("{} {} 0 0 0 0 0 1\n", 1 + 0.1 * i, 5 * i);
+  }
+  folder.write("a.clf", log);
+  folder.write("a.tum", truth);
+  const Answer answer =
+      run_program(folder, "run --system dead-reckoning --dataset a.clf --out o --no-report");
+  EXPECT_NE(answer.out.find("note: suspicious data: truth: a path 100 times as long as that of the "
+                            "wheels (200.000 m, 2.000 m)"),
+            std::string::npos)
+      << answer.out << answer.err;
 }
 
 TEST(Inspect, OfASimulatedLogKnowsItsTruthAndFindsTheGyroInAgreement) {

@@ -5,16 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "datasets/formats/log_io.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
+#include "tests/datasets/formats/health_support.hpp"
 #include "tests/support/room_drive.hpp"
 
 namespace corridor::formats {
 namespace {
 
+using test::all_lines;
+using test::change_each;
+using test::expect_suspicion;
 using test::ScratchFolder;
 using test::write_text;
 
@@ -46,13 +49,6 @@ SensorLog sound_log() {
 }
 
 template <class T>
-void change_each(SensorLog& log, const std::function<void(T&)>& change) {
-  for (SensorEvent& event : log.events) {
-    if (T* reading = std::get_if<T>(&event)) change(*reading);
-  }
-}
-
-template <class T>
 std::size_t index_of_nth(const SensorLog& log, int n) {
   for (std::size_t i = 0; i < log.events.size(); ++i) {
     if (std::holds_alternative<T>(log.events[i]) && n-- == 0) return i;
@@ -63,17 +59,6 @@ std::size_t index_of_nth(const SensorLog& log, int n) {
 template <class T>
 T& nth(SensorLog& log, int n) {
   return std::get<T>(log.events[index_of_nth<T>(log, n)]);
-}
-
-std::string all_lines(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
-void expect_suspicion(const SensorLog& log, const std::string& part) {
-  const std::string said = all_lines(examine(log).suspicions);
-  EXPECT_NE(said.find(part), std::string::npos) << part << " in " << said;
 }
 
 TEST(LogHealth, OfASoundLogFindsNothingWrong) {
@@ -105,9 +90,9 @@ TEST(LogHealth, CountsPathAndTurnByHand) {
   const LogHealth health = examine(log);
   EXPECT_DOUBLE_EQ(health.wheels->path_m, 5);
   EXPECT_DOUBLE_EQ(health.wheels->turn_rad, 1.5);
-  EXPECT_DOUBLE_EQ(health.wheels->max_speed_mps, 5);
+  EXPECT_DOUBLE_EQ(*health.wheels->max_speed_mps, 5);
   EXPECT_EQ(health.wheels->max_speed_at, "event 1");
-  EXPECT_DOUBLE_EQ(health.wheels->max_yaw_rate_radps, 0.5);
+  EXPECT_DOUBLE_EQ(*health.wheels->max_yaw_rate_radps, 0.5);
   EXPECT_TRUE(health.wheels->has_ticks);
   EXPECT_FALSE(health.lidar.has_value());
   EXPECT_FALSE(health.imu.has_value());

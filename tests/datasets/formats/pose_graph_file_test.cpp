@@ -1,5 +1,6 @@
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -210,6 +211,15 @@ TEST(PoseGraphFile, CountsWhatItLetsThrough) {
                                       "1 angles wrapped to (-pi, pi]", "2 parts that no edge joins",
                                       "the last line has no end: the file may have been cut "
                                       "short"}));
+}
+
+TEST(PoseGraphFile, NotesAnglesThatLookLikeDegrees) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) text += fmt::format("VERTEX_SE2 {} {} 0 {}\n", i, i, 45 * i - 180);
+  for (int i = 1; i < 8; ++i) text += fmt::format("EDGE_SE2 {} {} 1 0 0 1 0 0 1 0 1\n", i - 1, i);
+  const auto read = parse_pose_graph(text, GraphFormat::kG2o, "g");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->notes.back(), "7 of 15 angles are beyond 2 pi: degrees for radians?");
 }
 
 TEST(PoseGraphFile, ToroHoldsNoFixedPoses) {

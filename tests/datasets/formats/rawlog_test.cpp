@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,7 +100,7 @@ TEST(Rawlog, TicksBeyond32BitsAreAnErrorThatLeavesNoFile) {
 }
 
 // Plain bytes, so that the framing check and not gzip's checksum has to find the damage.
-TEST(Rawlog, TruncatedAnywhereIsAnErrorOrEndsAtAnObject) {
+TEST(Rawlog, FramingTruncatedAnywhereIsAnErrorOrEndsAtAnObject) {
   const ScratchFolder folder;
   const std::string bytes = *rawlog_bytes(small_log());
   const auto frames = check_rawlog_frames(bytes, "a");
@@ -119,6 +120,39 @@ TEST(Rawlog, TruncatedAnywhereIsAnErrorOrEndsAtAnObject) {
   EXPECT_TRUE(contains(read.error(), "the file ends inside an object's end flag"));
 }
 
+TEST(Rawlog, OneOfTheSuitesOwnThatIsCutBetweenTwoObjectsIsAnError) {
+  const ScratchFolder folder;
+  const std::string bytes = *rawlog_bytes(small_log());
+  const auto frames = check_rawlog_frames(bytes, "a");
+  ASSERT_TRUE(frames.has_value());
+  for (std::size_t i = 1; i < frames->size(); ++i) {
+    const auto cut = parse_rawlog(std::string_view(bytes).substr(0, frames->at(i).begin), "a");
+    ASSERT_FALSE(cut.has_value()) << i - 1 << " readings";
+    EXPECT_EQ(cut.error().to_line(),
+              fmt::format("a: {} readings; expected {}, as the log's own comment says: it was cut, "
+                          "or its objects changed",
+                          i - 1, frames->size() - 1));
+  }
+}
+
+TEST(Rawlog, ThatStatesNoNumberOfReadingsIsReadAsFarAsItGoes) {
+  std::string bytes = *rawlog_bytes(small_log());
+  bytes[bytes.find("# readings that follow:") + 2] = 'R';  // as others' comments
+  const auto frames = check_rawlog_frames(bytes, "a");
+  const auto read = parse_rawlog(std::string_view(bytes).substr(0, frames->back().begin), "a");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->events.size(), small_log().events.size() - 1);
+}
+
+TEST(Rawlog, ANumberOfReadingsThatIsNoneIsAnError) {
+  std::string bytes = *rawlog_bytes(small_log());
+  bytes[bytes.find("follow: ") + 8] = 'x';
+  const auto read = parse_rawlog(bytes, "a");
+  ASSERT_FALSE(read.has_value());
+  EXPECT_TRUE(contains(read.error(), "number of readings")) << read.error().to_line();
+  EXPECT_TRUE(contains(read.error(), "a: byte 0")) << read.error().to_line();
+}
+
 TEST(Rawlog, PackedFilesTruncatedAtEvery97thByteAreErrors) {
   const ScratchFolder folder;
   const std::string packed = *gzip(*rawlog_bytes(small_log()));
@@ -128,16 +162,12 @@ TEST(Rawlog, PackedFilesTruncatedAtEvery97thByteAreErrors) {
   }
 }
 
-TEST(Rawlog, PlainFilesTruncatedAtEvery97thByteNeverReadAsWhole) {
+TEST(Rawlog, PlainFilesTruncatedAtEvery97thByteAreErrors) {
   const ScratchFolder folder;
   const std::string plain = *rawlog_bytes(small_log());
-  const std::size_t num_events = small_log().events.size();
   for (std::size_t length = 0; length < plain.size(); length += 97) {
     write_text(folder / "a.rawlog", plain.substr(0, length));
-    const auto read = read_log(folder / "a.rawlog");
-    if (read) {
-      EXPECT_LT(read->events.size(), num_events) << "cut at byte " << length;
-    }
+    EXPECT_FALSE(read_log(folder / "a.rawlog").has_value()) << "cut at byte " << length;
   }
 }
 

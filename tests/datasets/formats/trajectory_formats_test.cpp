@@ -201,6 +201,17 @@ TEST(Kitti, WithoutStampsIsRefused) {
   EXPECT_NE(read.error().expected.find("t.times"), std::string::npos);
 }
 
+TEST(CarmenTrajectory, NotesHeadingsThatLookLikeDegrees) {
+  std::string text;
+  for (int i = 0; i < 20; ++i) {
+    text += "FLASER 0 0 0 " + std::to_string(9 * i) + " 0 0 0 " + std::to_string(i) + " h 0\n";
+  }
+  const auto read = parse_carmen_trajectory(text, "a.clf");
+  ASSERT_TRUE(read.has_value()) << read.error().to_line();
+  EXPECT_EQ(read->notes,
+            std::vector<std::string>{"19 of 20 angles are beyond 2 pi: degrees for radians?"});
+}
+
 TEST(CarmenTrajectory, AnswersEachDefectWithItsLine) {
   const std::vector<Defect> defects = {
       {"FLASER 0 0 0 0 0 0 0 2 h", "10 fields"},

@@ -99,6 +99,22 @@ TEST(Defects, StampThatASensorRepeats) {
   EXPECT_TRUE(starts_with(only_defect(log), "event 2: IMU sample repeats the stamp"));
 }
 
+TEST(Defects, StampThatComesAgainWithAnotherReading) {
+  const std::string kinds[] = {
+      "wheel sample repeats the stamp of the one before, which has another pose",
+      "IMU sample repeats the stamp of the one before, which has other values",
+      "scan repeats the stamp of the one before, which has other ranges"};
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    SensorLog log = sound_log();
+    SensorEvent other = log.events[3 + kind];  // the next reading of the sensor, but a scan's
+    if (auto* scan = std::get_if<LaserScan>(&other)) scan->ranges_m[1] = 3;
+    if (auto* imu = std::get_if<ImuSample>(&other)) imu->gyro_z_radps = 0.1;
+    std::visit([](auto& reading) { reading.stamp = timestamp_from_seconds(0.1); }, other);
+    log.events.insert(log.events.begin() + 3, other);
+    EXPECT_TRUE(starts_with(only_defect(log), "event 3: " + kinds[kind]));
+  }
+}
+
 TEST(Defects, GapInOneSensorWhileOthersGoOn) {
   SensorLog log = sound_log();
   for (int i = 6; i <= 120; ++i) log.events.emplace_back(imu_at(0.1 * i));
@@ -235,6 +251,31 @@ TEST(Defects, OdometryInDegrees) {
   ASSERT_FALSE(lines.empty());
   EXPECT_NE(lines.front().find("odometry turns"), std::string::npos);
   EXPECT_NE(lines.front().find("expected at most 20 rad/s (degrees?)"), std::string::npos);
+}
+
+// 2 s in a thousandth of the time: no window is ever full.
+TEST(Defects, OdometryOfALogShorterThanTheSpeedsWindow) {
+  for (const auto& [log, part] :
+       {std::pair(fast_wheels(2, 0), "odometry moves 3.960 m in 0.0020 s"),
+        std::pair(fast_wheels(0, 4), "odometry turns 7.920 rad in")}) {
+    SensorLog squeezed = log;
+    EXPECT_TRUE(defects(squeezed).empty());
+    for (SensorEvent& event : squeezed.events) {
+      std::visit([](auto& reading) { reading.stamp.nanoseconds /= 1000; }, event);
+    }
+    EXPECT_NE(only_defect(squeezed).find(part), std::string::npos) << only_defect(squeezed);
+  }
+}
+
+TEST(Defects, OdometryOfTheRestAfterTheLastFullWindow) {
+  SensorLog log = fast_wheels(1, 0);
+  for (int i = 1; i <= 4; ++i) {
+    log.events.emplace_back(wheels_at(2 + 1e-3 * i, Pose2(2 + 0.2 * i, 0, 0)));
+  }
+  EXPECT_NE(only_defect(log).find("odometry moves"), std::string::npos);
+  // Within what a clock that jitters does to a sound drive.
+  log.events.resize(log.events.size() - 3);
+  EXPECT_TRUE(defects(log).empty());
 }
 
 TEST(Defects, AccelerationOfNoRobot) {
