@@ -7,7 +7,6 @@
 #include "slam/core/units.hpp"
 
 namespace corridor::metrics {
-namespace {}  // namespace
 
 PoseErrors relation_errors(const Trajectory& estimate, std::span<const formats::Relation> relations,
                            double max_dt_s) {

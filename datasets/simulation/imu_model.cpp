@@ -1,10 +1,10 @@
 #include "datasets/simulation/imu_model.hpp"
-#include "slam/core/units.hpp"
 
 #include <cmath>
 
+#include "slam/core/units.hpp"
+
 namespace corridor::simulation {
-namespace {}  // namespace
 
 ImuErrors draw_imu_errors(const ImuParams& params, const Rng& rng) {
   Rng bias = rng.stream("bias");

@@ -13,7 +13,8 @@
 
 namespace corridor::fusion {
 
-// Where one sensor puts the robot, independently of the scan and of the other.
+// Where one sensor puts the robot, without a look at this scan or at the other sensor since the
+// last.
 struct Witness {
   Pose2 T_submap_base;
   Eigen::Matrix3d covariance;  // 3x3, base, order (x_m, y_m, theta_rad)

@@ -27,8 +27,8 @@ struct Prediction {
   bool has_wheels = false;
   bool is_turn_by_gyro = false;
   // The same motion by the wheels alone, turn included, and by the IMU alone, from the estimated
-  // velocity on: two that share nothing. The second is unknown while the velocity is, and where a
-  // part of the motion went by without a reading.
+  // velocity on: no reading since the last scan is in both. The second is unknown while the
+  // velocity is, and where a part of the motion went by without a reading.
   std::optional<MotionEstimate> by_wheels, by_imu;
 };
 
