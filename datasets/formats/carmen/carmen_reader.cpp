@@ -90,6 +90,7 @@ class LineReader {
     error_ = Error{ErrorCode::kMalformed, fmt::format("{} {}", name, found), where_, expected};
   }
 
+  [[nodiscard]] const std::string& where() const { return where_; }
   [[nodiscard]] bool has_failed() const { return error_.has_value(); }
   [[nodiscard]] const Error& error() const { return *error_; }
 
@@ -118,6 +119,7 @@ class CarmenParser {
     } else if (message == "ODOM") {
       take_odom(reader);
     } else if (is_skipped_carmen_message(message)) {
+      if (auto good = check_one_message(line, reader.where()); !good) return good;
       ++log_.left_out[fmt::format("{} lines skipped", message)];
     } else {
       reader.refuse("message", message, "a CARMEN message such as FLASER, ROBOTLASER1 or ODOM");
@@ -295,6 +297,19 @@ class CarmenParser {
 };
 
 }  // namespace
+
+Result<void> check_one_message(std::string_view fields, const std::string& where) {
+  for (auto field = take_field(fields); !field.empty(); field = take_field(fields)) {
+    for (const std::string_view message : {"FLASER", "ROBOTLASER1", "ODOM"}) {
+      // Whatever stands for the line's end may belong to the field.
+      std::string_view rest = fields;
+      if (!field.ends_with(message) || !parse_double(take_field(rest))) continue;
+      return fail(ErrorCode::kMalformed, fmt::format("{} within a line", message), where,
+                  "one message in a line: has its end been lost?");
+    }
+  }
+  return {};
+}
 
 Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
                                const CarmenOptions& options) {
