@@ -101,7 +101,7 @@ TEST(BadRequest, FilesThatStateNothing) {
   folder.write("m.yaml",
                "image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
                "occupied_thresh: 0.65\nfree_thresh: 0.2\n");
-  const std::string nothing = "the file states nothing; expected at least one key";
+  const std::string nothing = "states nothing; expected at least one key";
   expect_refused(folder, "simulate empty.toml --out x.rawlog", {"empty.toml: " + nothing});
   expect_refused(folder, "simulate remarks.toml --out x.rawlog", {"remarks.toml: " + nothing});
   expect_refused(folder, "simulate on-empty.toml --out x.rawlog", {"empty.toml: " + nothing});
@@ -110,6 +110,9 @@ TEST(BadRequest, FilesThatStateNothing) {
   expect_refused(folder, "data list --data-dir data", {"catalog.toml: dataset: missing"});
   expect_refused(folder, "evaluate --estimate a.tum --truth a.tum --map m.yaml --world empty.toml",
                  {"empty.toml: " + nothing});
+  folder.write("a.clf", "FLASER 2 1 2 0 0 0 0 0 0 1 h 1\n");
+  folder.write("a.robot.toml", "[lidar]\n");
+  expect_refused(folder, "data inspect a.clf", {"a.robot.toml: " + nothing});
 }
 
 TEST(BadRequest, SeedsThatAreNoSeeds) {
