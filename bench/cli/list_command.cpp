@@ -86,13 +86,21 @@ Result<Listing> list_backends(const CommonOptions&) {
   return listing;
 }
 
+// None as null, which a table shows as "-".
+Json to_json(const std::vector<std::filesystem::path>& paths) {
+  Json texts;
+  for (const std::filesystem::path& path : paths) texts.push_back(path.string());
+  return texts;
+}
+
 Result<Listing> list_datasets(const CommonOptions& common) {
   const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   Listing listing{Json::array(),
                   {"name", "format", "truth", "is_found", "is_fetchable", "title"},
-                  "is_found: a file of that name is there; data verify compares checksums\n"};
+                  "is_found: files of those names are there; data verify compares checksums\n"};
   bool has_own = false;
+  bool has_incomplete = false;
   for (const catalog::DatasetRow& row : catalog::list_datasets(*known, common.data_dirs())) {
     listing.items.push_back(
         {{"name", row.name},
@@ -101,15 +109,18 @@ Result<Listing> list_datasets(const CommonOptions& common) {
          {"truth", catalog::to_text(row.truth)},
          {"is_found", row.is_found},
          {"is_readable", row.is_readable},
-         {"path", row.is_found ? Json(row.path.string()) : Json(nullptr)},
+         {"path", row.path.empty() ? Json(nullptr) : Json(row.path.string())},
+         {"missing_files", to_json(row.missing_files)},
          {"licence", row.licence},
          {"source", row.source},
          {"is_fetchable", row.is_fetchable},
          {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)},
          {"catalogue", row.is_own ? Json(row.catalog_file.string()) : Json("built in")}});
     has_own = has_own || row.is_own;
+    has_incomplete = has_incomplete || !row.missing_files.empty();
   }
   if (has_own) listing.columns.insert(listing.columns.end() - 1, "catalogue");
+  if (has_incomplete) listing.columns.insert(listing.columns.end() - 1, "missing_files");
   return listing;
 }
 

@@ -94,7 +94,12 @@ std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& di
   for (const CatalogEntry& entry : catalog.entries) {
     const auto folder = find_folder(entry, dirs);
     const auto path = folder ? *folder / entry.files.front().path : std::filesystem::path();
-    rows.push_back({entry.name, entry.title, folder.has_value(), !entry.is_graph(), path,
+    std::vector<std::filesystem::path> missing;
+    for (const DataFile& file : entry.files) {
+      if (folder && !is_file(*folder / file.path)) missing.push_back(file.path);
+    }
+    const bool is_found = folder.has_value() && missing.empty();
+    rows.push_back({entry.name, entry.title, is_found, !entry.is_graph(), path, std::move(missing),
                     entry.format, entry.truth, entry.licence, entry.source,
                     entry.not_fetchable.empty(), entry.not_fetchable, entry.catalog_file,
                     entry.folder.has_value()});

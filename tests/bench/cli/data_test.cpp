@@ -126,11 +126,26 @@ TEST_F(DataCommand, ListSaysThatItComparesNoChecksums) {
   folder_.write("data/sub/here.clf", "something else");
   const Answer text = run("data list --data-dir data");
   EXPECT_NE(
-      text.out.find("\nis_found: a file of that name is there; data verify compares checksums\n"),
+      text.out.find("\nis_found: files of those names are there; data verify compares checksums\n"),
       std::string::npos)
       << text.out;
   const auto rows = nlohmann::json::parse(run("data list --json --data-dir data").out);
   EXPECT_EQ(rows.at(0).at("is_found"), true);
+}
+
+TEST_F(DataCommand, ListNamesWhatIsMissingBesideALogThatIsThere) {
+  const std::string whole = "data list --data-dir data";
+  EXPECT_EQ(run(whole).out.find("missing_files"), std::string::npos);
+  std::string own = entry("own", kLog, "", "not_fetchable = \"made here\"\n");
+  own.insert(own.find(" }]") + 2,
+             ", { path = \"sub/own.robot.toml\", sha256 = \"" + std::string(64, '0') + "\" }");
+  folder_.write("data/catalog.toml", own);
+  folder_.write("data/sub/own.clf", kLog);
+  EXPECT_NE(run(whole).out.find("sub/own.robot.toml"), std::string::npos) << run(whole).out;
+  const auto row = nlohmann::json::parse(run(whole + " --json").out).back();
+  EXPECT_EQ(row.at("is_found"), false);
+  EXPECT_EQ(row.at("missing_files"), nlohmann::json({"sub/own.robot.toml"}));
+  EXPECT_EQ(row.at("path"), (folder_ / "data/sub/own.clf").string()) << row;
 }
 
 TEST_F(DataCommand, InspectListsTheDefectsOfALogThatNothingElseTakes) {
