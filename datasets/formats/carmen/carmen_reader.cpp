@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "datasets/formats/carmen/carmen.hpp"
+#include "datasets/formats/degree_check.hpp"
 #include "datasets/formats/text.hpp"
 
 namespace corridor::formats {
@@ -23,7 +24,8 @@ struct LineEnd {
 // Takes fields off one line; the first thing wrong is kept and all later answers mean nothing.
 class LineReader {
  public:
-  LineReader(std::string_view rest, std::string where) : rest_(rest), where_(std::move(where)) {}
+  LineReader(std::string_view rest, std::string where, DegreeCheck& headings)
+      : rest_(rest), where_(std::move(where)), headings_(headings) {}
 
   double number(const char* name) {
     const std::string_view field = take_field(rest_);
@@ -52,7 +54,9 @@ class LineReader {
       refuse(name, fmt::format("heading {}", theta_rad),
              fmt::format("at most {:g} rad", kMaxHeading_rad).c_str());
     }
-    return has_failed() ? Pose2() : Pose2(x_m, y_m, theta_rad);
+    if (has_failed()) return {};
+    headings_.take(theta_rad);  // as it stands: a pose wraps it
+    return {x_m, y_m, theta_rad};
   }
 
   CarmenSpeed speed() {
@@ -97,6 +101,7 @@ class LineReader {
  private:
   std::string_view rest_;
   std::string where_;
+  DegreeCheck& headings_;
   std::optional<Error> error_;
 };
 
@@ -111,7 +116,7 @@ class CarmenParser {
     line_number_ = line_number;
     const std::string_view message = take_field(line);
     if (message.empty() || message.front() == '#') return {};
-    LineReader reader(line, fmt::format("{}:{}", file_, line_number));
+    LineReader reader(line, fmt::format("{}:{}", file_, line_number), headings_);
     if (message == "FLASER") {
       take_flaser(reader);
     } else if (message == "ROBOTLASER1") {
@@ -130,6 +135,7 @@ class CarmenParser {
 
   ParsedLog finish() {
     count_other_speeds();
+    if (auto note = headings_.note()) log_.notes.push_back(std::move(*note));
     return std::move(log_);
   }
 
@@ -289,6 +295,7 @@ class CarmenParser {
   const std::string& file_;
   const CarmenOptions& options_;
   std::uint64_t line_number_ = 0;
+  DegreeCheck headings_;
   Pose2 last_T_base_lidar_;
   // The lines that state speeds.
   std::vector<WheelSample> wheel_lines_;

@@ -167,53 +167,6 @@ TEST(FormatDefects, StampsOfFewDigitsAreRefused) {
             std::string::npos);
 }
 
-// The same log with every length in centimetres.
-SensorLog in_centimetres(SensorLog log) {
-  for (SensorEvent& event : log.events) {
-    auto* scan = std::get_if<LaserScan>(&event);
-    if (scan == nullptr) continue;
-    scan->range_max_m *= 100;
-    for (float& range_m : scan->ranges_m) range_m *= 100;
-  }
-  log.robot.lidar.range_max_m *= 100;
-  return log;
-}
-
-SensorLog in_degrees(SensorLog log) {
-  constexpr double kDegrees = 57.29577951308232;
-  for (SensorEvent& event : log.events) {
-    auto* scan = std::get_if<LaserScan>(&event);
-    if (scan == nullptr) continue;
-    scan->angle_min_rad *= kDegrees;
-    scan->angle_increment_rad *= kDegrees;
-  }
-  return log;
-}
-
-constexpr const char* kWrittenLogs[] = {"a.clf", "a.rawlog", "a.bag"};
-
-TEST(FormatDefects, RangesInCentimetresAreSuspiciousInEveryLogFormat) {
-  for (const char* name : kWrittenLogs) {
-    const ScratchFolder folder;
-    ASSERT_TRUE(write_log(in_centimetres(test::small_log()), folder / name));
-    const auto read = read_log(folder / name);
-    ASSERT_TRUE(read.has_value()) << read.error().to_line();
-    EXPECT_NE(joined(examine(*read).suspicions).find("centimetres or millimetres"),
-              std::string::npos)
-        << name;
-  }
-}
-
-TEST(FormatDefects, AnglesInDegreesAreRefusedInEveryLogFormat) {
-  for (const char* name : kWrittenLogs) {
-    const ScratchFolder folder;
-    ASSERT_TRUE(write_log(in_degrees(test::small_log()), folder / name));
-    const Outcome outcome = read_as_log(folder / name);
-    EXPECT_FALSE(outcome.is_read) << name;
-    EXPECT_NE(outcome.said.find("2 pi"), std::string::npos) << outcome.said;
-  }
-}
-
 Outcome read_lcm(std::int64_t jump_us, std::vector<std::string>* suspicions = nullptr) {
   const ScratchFolder folder;
   write_text(folder / "a.lcm", test::small_lcm_log(0, jump_us).bytes());

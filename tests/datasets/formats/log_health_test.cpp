@@ -323,5 +323,23 @@ TEST(ReadLogAsFound, RefusesWhatIsNoLog) {
   EXPECT_FALSE(read_log_as_found(folder / "b.clf").has_value());
 }
 
+// Chords of 1 m: along the heading, across it, and on an arc of a quarter turn, whose chord is half
+// of the turn off the heading it begins with.
+TEST(LogHealth, SharesTheWayAcrossTheHeadingsByHand) {
+  SensorLog log;
+  const auto add = [&log](const Pose2& T_odom_base) {
+    const auto second = static_cast<std::int64_t>(log.events.size()) * 1'000'000'000;
+    log.events.emplace_back(WheelSample{{second}, T_odom_base, std::nullopt});
+    return examine(log).wheels->sideways_ratio;
+  };
+  const double half = std::sqrt(0.5);
+  add(Pose2(0, 0, 0));
+  EXPECT_DOUBLE_EQ(add(Pose2(1, 0, 0)), 0);
+  EXPECT_DOUBLE_EQ(add(Pose2(1, 1, 0)), 0.5);
+  EXPECT_NEAR(add(Pose2(1 + half, 1 + half, std::acos(-1) / 2)), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(add(Pose2(1 + half, 1.05 + half, 3)), 1.0 / 3, 1e-12) << "too short to count";
+  EXPECT_EQ(examine(log).wheels->num_chords, 3U);
+}
+
 }  // namespace
 }  // namespace corridor::formats
