@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "datasets/simulation/scenario_sections.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 
@@ -79,7 +79,7 @@ RobotModel nominal_robot(const Scenario& scenario) {
   robot.lidar.scan_duration_s = scenario.lidar.scan_duration_s;
   robot.lidar.time_offset_s = scenario.lidar.time_offset_s;
   const ImuParams& imu = scenario.imu;
-  robot.imu.T_base_imu = Pose2(imu.x_m, imu.y_m, imu.yaw_deg * std::numbers::pi / 180);
+  robot.imu.T_base_imu = Pose2(imu.x_m, imu.y_m, imu.yaw_deg * kRadPerDeg);
   robot.imu.rate_hz = imu.rate_hz;
   robot.imu.gyro_noise_radps = imu.gyro_noise_radps();
   robot.imu.accel_noise_mps2 = imu.accel_noise_mps2();

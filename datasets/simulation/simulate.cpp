@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "datasets/simulation/imu_model.hpp"
 #include "datasets/simulation/lidar_model.hpp"
@@ -16,6 +15,7 @@
 #include "datasets/simulation/slips.hpp"
 #include "datasets/simulation/wheel_model.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
@@ -32,7 +32,7 @@ World draw_world(const Scenario& scenario, Rng rng) {
   drawn.a_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   drawn.b_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   drawn.c_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
-  const double alpha_spread_rad = params.alpha_spread_deg * std::numbers::pi / 180;
+  const double alpha_spread_rad = params.alpha_spread_deg * kRadPerDeg;
   drawn.alpha_rad += rng.uniform(-alpha_spread_rad, alpha_spread_rad);
   return make_corridor(drawn);
 }
