@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "datasets/formats/log_io.hpp"
+#include "slam/core/units.hpp"
 #include "tests/datasets/formats/golden_support.hpp"
 
 namespace corridor::formats {
@@ -67,6 +68,46 @@ TEST(WrittenLog, WithoutWheelsBecomesNoCarmenLog) {
   EXPECT_NE(refused.error().to_line().find("no wheel sample; expected odometry"),
             std::string::npos);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// 1081 beams of a quarter of a degree in a sweep of 25 ms: no figure of the fan is a 32-bit float.
+SensorLog with_fan(SensorLog log, double angle_min_rad) {
+  for (SensorEvent& event : log.events) {
+    auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    scan->angle_increment_rad = 0.25 * kRadPerDeg;
+    scan->angle_min_rad = angle_min_rad;
+    scan->duration_s = log.robot.lidar.scan_duration_s = 0.025;
+    scan->ranges_m.assign(1081, 1);
+    scan->is_valid.assign(1081, 1);
+  }
+  return log;
+}
+
+TEST(WrittenLog, RoundedAnglesAreLostOnlyWhereTheyTurnABeamByAMicroradian) {
+  const SensorLog log = with_fan(small_log(), -135 * kRadPerDeg);
+  for (const auto& [name, format] :
+       {std::pair("a.rawlog", LogFormat::kRawlog), std::pair("a.bag", LogFormat::kRosbag)}) {
+    const std::string losses = joined(losses_of_conversion(log, format));
+    EXPECT_EQ(losses.find("angle"), std::string::npos) << losses;
+    EXPECT_EQ(losses.find("sweep"), std::string::npos) << losses;
+    const ScratchFolder folder;
+    ASSERT_TRUE(write_log(log, folder / name));
+    const auto read = read_log(folder / name);
+    ASSERT_TRUE(read.has_value()) << read.error().to_line();
+    for (const SensorEvent& event : read->events) {
+      const auto* scan = std::get_if<LaserScan>(&event);
+      if (scan == nullptr) continue;
+      EXPECT_NEAR(scan->angle_rad(0), -135 * kRadPerDeg, 1e-6) << name;
+      EXPECT_NEAR(scan->angle_rad(1080), 135 * kRadPerDeg, 1e-6) << name;
+      EXPECT_NEAR(scan->duration_s, 0.025, 1e-6) << name;
+    }
+  }
+  const SensorLog turned = with_fan(small_log(), -135 * kRadPerDeg + 30 * 360 * kRadPerDeg);
+  EXPECT_NE(joined(losses_of_conversion(turned, LogFormat::kRosbag))
+                .find("4 scans have beams turned by up to "),
+            std::string::npos)
+      << joined(losses_of_conversion(turned, LogFormat::kRosbag));
 }
 
 TEST(WrittenLog, StampsCloserThanTheFormatsStepAreFound) {
