@@ -55,18 +55,25 @@ TEST(WheelsFromLogs, TicksHaveTheStatedLength) {
   EXPECT_NEAR(path_m / static_cast<double>(samples.back().ticks->left), 0.01, 0.01 * 0.15 / path_m);
 }
 
-// Increments of 1 m/s over 20 ms, each one step with noise of its own.
-TEST(WheelsFromLogs, NoiseIsTheStatedPartOfEachStep) {
-  const RecordedRun run =
-      recorded(with_wheels(honest_scenario(), [](auto& p) { p.noise_ratio = 0.05; }), 1);
-  const Counted wheels = counted(run);
-  std::vector<double> steps_m;  // of the left wheel
-  for (std::size_t i = 150; i < wheels.common_m.size(); ++i) {
-    steps_m.push_back(wheels.common_m[i] - wheels.common_m[i - 1] -
-                      0.5 * (wheels.difference_m[i] - wheels.difference_m[i - 1]));
+// Increments of 1 m/s over 20 ms: four times 5 ms with noise of their own make half of the part,
+// whether the simulator takes one step, four or sixteen.
+TEST(WheelsFromLogs, NoiseIsTheStatedPartOfEach5MillisecondsAtEveryRateOfTheImu) {
+  for (const double imu_rate_hz : {50.0, 200.0, 800.0}) {
+    Scenario scenario = with_wheels(honest_scenario(), [](auto& p) { p.noise_ratio = 0.05; });
+    scenario.imu.rate_hz = imu_rate_hz;
+    const RecordedRun run = recorded(scenario, 1);
+    const Counted wheels = counted(run);
+    std::vector<double> steps_m;  // of the left wheel
+    for (std::size_t i = 150; i < wheels.common_m.size(); ++i) {
+      steps_m.push_back(wheels.common_m[i] - wheels.common_m[i - 1] -
+                        0.5 * (wheels.difference_m[i] - wheels.difference_m[i - 1]));
+    }
+    EXPECT_NEAR(standard_deviation(steps_m) / mean(steps_m) / 0.025, 1,
+                four_sigma(static_cast<double>(steps_m.size())))
+        << imu_rate_hz;
+    // 0.05 * sqrt(5 mm) per root metre.
+    EXPECT_NEAR(run.log.robot.wheels.sigma_m_per_sqrt_m, 0.05 * std::sqrt(0.005), 1e-12);
   }
-  EXPECT_NEAR(standard_deviation(steps_m) / mean(steps_m) / 0.05, 1,
-              four_sigma(static_cast<double>(steps_m.size())));
 }
 
 TEST(WheelsFromLogs, SlipsHaveTheStatedRatioAndFillTheStatedShare) {
