@@ -214,6 +214,19 @@ TEST(BadRequest, ATruthOfAnotherClock) {
       {"run.tum", "no stamp in common", "1000.000 s to 2000.000 s", "1.000 s to 1.100 s"});
 }
 
+// Whichever file beside the log is broken, before anything is run or written.
+TEST(BadRequest, ALogWhoseTruthCannotBeRead) {
+  for (const std::string name : {"a.tum", "a.relations", "a.truth.toml"}) {
+    const ScratchFolder folder;
+    folder.write("a.clf", kGoodLog);
+    folder.write(name, "garbage\n");
+    for (const std::string command :
+         {"run --system dead-reckoning --dataset a.clf --out o --quiet", "convert a.clf b.bag"}) {
+      expect_refused(folder, command, {name + ":1: "});
+    }
+  }
+}
+
 TEST(BadRequest, IsToldWithoutControlCharacters) {
   const ScratchFolder folder;
   for (const std::string command : {"run", "data verify", "", "run --system karto --dataset"}) {
