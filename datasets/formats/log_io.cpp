@@ -139,9 +139,9 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
         judge(integrate_wheel_ticks(log.events, log.robot.wheels, path.string()), refusals, notes);
     if (!integrated) return tl::make_unexpected(integrated.error());
   }
-  auto attached =
-      judge(attach_truth(path, options, std::move(parsed->reference), log), refusals, notes);
-  if (!attached) return tl::make_unexpected(attached.error());
+  const auto attached = attach_truth(path, options, std::move(parsed->reference), log);
+  if (!attached && refusals == Refusals::kAll) return tl::make_unexpected(attached.error());
+  if (!attached) found.refused_truth = attached.error();
   found.origins = std::move(parsed->origins);
   found.origins.resize(log.events.size());  // less what lies behind the cut
   found.origin_unit = parsed->origin_unit;

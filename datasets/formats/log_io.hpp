@@ -93,10 +93,12 @@ struct LogAsFound {
   // Where in the file each event stands, and in what this is counted: "line", "byte".
   std::vector<std::uint64_t> origins;
   std::string origin_unit;
+  // Why read_log() refuses the truth, which `log` lacks then.
+  std::optional<Error> refused_truth;
 };
 
-// As read_log(), but keeps what read_log() refuses for its readings, their stamps or its truth;
-// truth that cannot be read is left out with a note. What is no log of its format stays an Error.
+// As read_log(), but keeps what read_log() refuses for its readings or their stamps, and leaves out
+// a truth that it refuses. What is no log of its format stays an Error.
 Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,
                                      const ReadLogOptions& options = {});
 

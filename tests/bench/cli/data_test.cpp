@@ -163,6 +163,26 @@ TEST_F(DataCommand, InspectListsTheDefectsOfALogThatNothingElseTakes) {
   EXPECT_EQ(report.at("lidar").at("first_bad_stamp_at"), "line 3");
 }
 
+TEST_F(DataCommand, InspectCallsNoLogFitThatRunRefusesForWhatLiesBesideIt) {
+  const std::vector<std::pair<std::string, std::string>> companions = {
+      {"a.tum", "garbage\n"},
+      {"a.tum", "1000 0 0 0 0 0 0 1\n1100 0.1 0 0 0 0 0 1\n"},
+      {"a.tum", "2000 0 0 0 0 0 0 1\n"},
+      {"a.relations", "garbage\n"},
+      {"a.relations", "2000 2001 0 0 0 0 0 0\n"},
+      {"a.truth.toml", "[world\n"}};
+  for (const auto& [name, text] : companions) {
+    folder_.write("a.clf", kLog);
+    folder_.write(name, text);
+    EXPECT_EQ(run("run --system dead-reckoning --dataset a.clf --out o").exit_code, 2) << text;
+    const Answer answer = run("data inspect a.clf");
+    EXPECT_EQ(answer.exit_code, 1) << answer.out;
+    EXPECT_NE(answer.out.find("\ndefect: " + name + ":"), std::string::npos) << answer.out;
+    EXPECT_EQ(answer.out.find("kept although refused"), std::string::npos) << answer.out;
+    fs::remove(folder_ / name);
+  }
+}
+
 TEST_F(DataCommand, InspectOfWhatIsNoLogIsABadRequest) {
   folder_.write("garbage.clf", "no log at all\n");
   for (const std::string what : {"garbage.clf", "nowhere.clf", "data", "made"}) {

@@ -308,7 +308,9 @@ TEST(ReadLogAsFound, KeepsWhatReadLogRefusesAndKnowsItsLines) {
   EXPECT_FALSE(found->log.truth.has_value());
   const std::string notes = all_lines(found->log.provenance.notes);
   EXPECT_NE(notes.find("a.clf: line 3: stamp steps back by"), std::string::npos) << notes;
-  EXPECT_NE(notes.find("a.tum:1"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("a.tum"), std::string::npos) << notes;
+  ASSERT_TRUE(found->refused_truth.has_value());
+  EXPECT_EQ(found->refused_truth->where, (folder / "a.tum").string() + ":1");
   const LogHealth health = examine(found->log, {found->origins, found->origin_unit});
   EXPECT_NE(all_lines(health.defects).find("line 3, event 2: stamp steps back"), std::string::npos)
       << all_lines(health.defects);
