@@ -51,13 +51,17 @@ Companions companions_of(const catalog::LogSource& source, formats::LogAsFound& 
   Companions companions;
   if (found.refused_truth) companions.refuse(*found.refused_truth);
   if (const auto good = runner::check_truth(found.log); !good) companions.refuse(good.error());
-  if (const auto file = formats::find_sidecar(source.path, ".relations", source.options)) {
-    look_at_relations(*file, found.log, companions);
-  }
-  if (const auto file = formats::find_sidecar(source.path, ".truth.toml", source.options)) {
-    const auto world = simulation::read_truth(*file);
+  const auto look_at = [&](const char* suffix, const auto& look) {
+    const auto file = formats::find_sidecar(source.path, suffix, source.options);
+    if (!file) companions.refuse(file.error());
+    if (file && *file) look(**file);
+  };
+  look_at(".relations",
+          [&](const fs::path& file) { look_at_relations(file, found.log, companions); });
+  look_at(".truth.toml", [&](const fs::path& file) {
+    const auto world = simulation::read_truth(file);
     if (!world) companions.refuse(world.error());
-  }
+  });
   return companions;
 }
 

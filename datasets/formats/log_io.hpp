@@ -77,10 +77,11 @@ struct ReadLogOptions {
   bool takes_reference = true;
 };
 
-// LOG with this suffix, where it is there and is to be taken along.
-std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& log,
-                                                  std::string_view suffix,
-                                                  const ReadLogOptions& options);
+// LOG with this suffix, where it is there and is to be taken along. An Error if what is there is no
+// regular file: a folder, a link that leads nowhere.
+Result<std::optional<std::filesystem::path>> find_sidecar(const std::filesystem::path& log,
+                                                          std::string_view suffix,
+                                                          const ReadLogOptions& options);
 
 // Reads a log, its calibration LOG.robot.toml, a bag's LOG.topics.toml and its truth LOG.tum, where
 // they lie beside it. An LCM log's own poses take the place of truth where there is no LOG.tum;

@@ -67,10 +67,11 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
 
 Result<BagTopics> topics_of(const std::filesystem::path& path, const ReadLogOptions& options) {
   const auto sidecar = find_sidecar(path, ".topics.toml", options);
-  if (!sidecar) return options.topics.value_or(BagTopics{});
-  const auto text = read_file_bytes(*sidecar);
+  if (!sidecar) return tl::make_unexpected(sidecar.error());
+  if (!*sidecar) return options.topics.value_or(BagTopics{});
+  const auto text = read_file_bytes(**sidecar);
   if (!text) return tl::make_unexpected(text.error());
-  return bag_topics_from_toml(*text, sidecar->string());
+  return bag_topics_from_toml(*text, (*sidecar)->string());
 }
 
 Result<ParsedLog> parse_rosbag(std::string_view bytes, const std::filesystem::path& path,
@@ -97,10 +98,11 @@ bool is_suffix_of_two_formats(const std::filesystem::path& log) {
 Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
                                             const ReadLogOptions& options) {
   const auto path = find_sidecar(log, ".robot.toml", options);
-  if (!path) return std::nullopt;
-  auto text = read_file_bytes(*path);
+  if (!path) return tl::make_unexpected(path.error());
+  if (!*path) return std::nullopt;
+  auto text = read_file_bytes(**path);
   if (!text) return tl::make_unexpected(text.error());
-  return Sidecar{path->string(), std::move(*text)};
+  return Sidecar{(*path)->string(), std::move(*text)};
 }
 
 Result<ParsedLog> parse_log(const std::filesystem::path& path,

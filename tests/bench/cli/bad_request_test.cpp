@@ -227,6 +227,24 @@ TEST(BadRequest, ALogWhoseTruthCannotBeRead) {
   }
 }
 
+TEST(BadRequest, SomethingThatIsNoFileBesideALog) {
+  for (const std::string suffix : {"robot.toml", "tum", "relations", "truth.toml"}) {
+    const ScratchFolder folder;
+    folder.write("a.clf", kGoodLog);
+    folder.write("b.clf", kGoodLog);
+    std::filesystem::create_directory(folder / ("a." + suffix));
+    std::filesystem::create_symlink("nowhere", folder / ("b." + suffix));
+    for (const std::string log : {"a", "b"}) {
+      for (const char* command : {"run --system karto --out o --dataset ", "convert --quiet "}) {
+        const bool is_convert = std::string(command).starts_with("convert");
+        expect_refused(folder, command + log + ".clf" + (is_convert ? " c.bag" : ""),
+                       {log + "." + suffix + ": this is no regular file; expected a file"});
+      }
+      EXPECT_GE(run_program(folder, "data inspect " + log + ".clf").exit_code, 1);
+    }
+  }
+}
+
 TEST(BadRequest, IsToldWithoutControlCharacters) {
   const ScratchFolder folder;
   for (const std::string command : {"run", "data verify", "", "run --system karto --dataset"}) {
