@@ -86,6 +86,10 @@ Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOption
   if (!text) return tl::make_unexpected(text.error());
   auto truth = parse_tum_trajectory(*text, tum->string());
   if (!truth) return tl::make_unexpected(truth.error());
+  if (truth->trajectory.empty()) {
+    return fail(ErrorCode::kMalformed, "the truth has no pose", tum->string(),
+                "tum poses, or no file of this name");
+  }
   for (const std::string& note : truth->notes) log.provenance.notes.push_back("truth: " + note);
   log.truth = std::move(truth->trajectory);
   return {};

@@ -214,6 +214,20 @@ TEST(BadRequest, ATruthOfAnotherClock) {
       {"run.tum", "no stamp in common", "1000.000 s to 2000.000 s", "1.000 s to 1.100 s"});
 }
 
+// As an interrupted copy leaves it.
+TEST(BadRequest, ALogWhoseTruthIsEmpty) {
+  for (const std::string text : {"", "# stamp x y z qx qy qz qw\n"}) {
+    const ScratchFolder folder;
+    folder.write("a.clf", kGoodLog);
+    folder.write("a.tum", text);
+    for (const std::string command :
+         {"run --system dead-reckoning --dataset a.clf --out o", "convert a.clf b.bag"}) {
+      expect_refused(folder, command, {"a.tum: the truth has no pose; expected tum poses"});
+    }
+    EXPECT_EQ(run_program(folder, "data inspect a.clf").exit_code, 1);
+  }
+}
+
 // Whichever file beside the log is broken, before anything is run or written.
 TEST(BadRequest, ALogWhoseTruthCannotBeRead) {
   for (const std::string name : {"a.tum", "a.relations", "a.truth.toml"}) {
