@@ -62,6 +62,12 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
                 "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
                     sidecar_of(file, ".robot.toml").string());
   }
+  const bool is_limit_stated = options.robot || stated.states_range_max;
+  if (parsed && format == LogFormat::kTicks && !is_limit_stated) {
+    parsed->notes.push_back(
+        fmt::format("tick logs state no limit: {} m is assumed, which may take codes for returns",
+                    stated.robot.lidar.range_max_m));
+  }
   return parsed;
 }
 
