@@ -182,6 +182,11 @@ Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
 
 Result<LogSource> find_path(const std::filesystem::path& path, const Catalog& catalog,
                             const LoadOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !is_file(path)) {
+    return fail(ErrorCode::kNotFound, "this is no regular file", path.string(),
+                "a log file, or the name of a data set");
+  }
   if (!is_file(path)) {
     return fail(ErrorCode::kNotFound,
                 fmt::format("'{}' is neither a data set nor a log file", path.string()), "",

@@ -203,6 +203,18 @@ TEST(BadRequest, AFolderAsALog) {
   expect_refused(folder, "run --system karto --dataset logs --out o",
                  {"logs: this is a folder; expected a log file"});
   expect_refused(folder, "convert logs x.rawlog", {"logs: this is a folder; expected a log file"});
+  expect_refused(folder, "simulate ./logs --out x.rawlog",
+                 {"./logs: this is a folder; expected a"});
+}
+
+TEST(BadRequest, ADeviceAsALog) {
+  const ScratchFolder folder;
+  expect_refused(folder, "run --system karto --dataset /dev/null --out o",
+                 {"/dev/null: this is no regular file; expected a log file"});
+  for (const char* command : {"convert /dev/null x.rawlog", "data inspect /dev/null",
+                              "simulate /dev/null --out x.rawlog"}) {
+    expect_refused(folder, command, {"/dev/null: this is no regular file; expected a"});
+  }
 }
 
 TEST(BadRequest, ATruthOfAnotherClock) {

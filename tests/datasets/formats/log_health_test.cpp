@@ -153,6 +153,8 @@ TEST(LogHealth, SuspectsMillisecondsForSeconds) {
   change_each<WheelSample>(log, [](WheelSample& sample) { sample.stamp.nanoseconds *= 1000; });
   change_each<ImuSample>(log, [](ImuSample& sample) { sample.stamp.nanoseconds *= 1000; });
   expect_suspicion(log, "LiDAR: 100.000 s between readings; milliseconds for seconds?");
+  change_each<LaserScan>(log, [](LaserScan& scan) { scan.stamp.nanoseconds *= 1000; });
+  expect_suspicion(log, "LiDAR: 100000.000 s between readings; microseconds for seconds?");
   SensorLog short_log = sound_log();
   change_each<LaserScan>(short_log, [](LaserScan& scan) { scan.stamp.nanoseconds /= 1000; });
   expect_suspicion(short_log, "seconds for milliseconds?");
