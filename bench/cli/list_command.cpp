@@ -13,6 +13,7 @@
 
 #include "bench/results/result_keys.hpp"
 #include "bench/runner/back_ends.hpp"
+#include "bench/runner/data_kind.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/runner/suite.hpp"
 #include "bench/runner/systems.hpp"
@@ -114,8 +115,13 @@ Result<Listing> list_datasets(const CommonOptions& common) {
          {"licence", row.licence},
          {"source", row.source},
          {"is_fetchable", row.is_fetchable},
+         {"refused", nullptr},
          {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)},
          {"catalogue", row.is_own ? Json(row.catalog_file.string()) : Json("built in")}});
+    if (const auto clear = runner::check_one_meaning(row.name, *known); !clear) {
+      listing.items.back()["refused"] = clear.error().to_line();
+      listing.remark += fmt::format("refused by that name: {}\n", clear.error().to_line());
+    }
     has_own = has_own || row.is_own;
     has_incomplete = has_incomplete || !row.missing_files.empty();
   }

@@ -7,6 +7,7 @@
 
 #include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
+#include "slam/core/nearest_names.hpp"
 
 namespace corridor::catalog {
 namespace {
@@ -107,12 +108,18 @@ std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& di
   return rows;
 }
 
+Error unknown_dataset(const Catalog& catalog, std::string_view name) {
+  std::vector<std::string> names;
+  for (const CatalogEntry& entry : catalog.entries) names.push_back(entry.name);
+  return {ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name), "",
+          fmt::format("a name of `data list`; the nearest: {}",
+                      fmt::join(nearest_names(name, names), ", "))};
+}
+
 Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::string_view name,
                                                  const DataDirs& dirs) {
   const CatalogEntry* entry = catalog.find(name);
-  if (entry == nullptr) {
-    return fail(ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name));
-  }
+  if (entry == nullptr) return tl::make_unexpected(unknown_dataset(catalog, name));
   const auto folder = find_folder(*entry, dirs);
   std::vector<DataFile> files = entry->files;
   for (const DataFile& file : entry->companions) {

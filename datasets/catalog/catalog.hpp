@@ -123,6 +123,9 @@ struct VerifiedFile {
   std::string sha256_expected;
 };
 
+// A name that the catalogue does not have, with the nearest ones.
+Error unknown_dataset(const Catalog& catalog, std::string_view name);
+
 // Compares every file of an entry with the catalogue, and those companions that are there. An Error
 // for an unknown name.
 Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::string_view name,

@@ -325,6 +325,9 @@ LogHealth examine(const SensorLog& log, const EventPlaces& places, const LogLimi
   for (std::string& line : defects(log, limits, max_defects)) {
     health.defects.push_back(places.placed(std::move(line)));
   }
+  if (health.lidar && health.lidar->longest_range_at.empty()) {
+    health.defects.emplace_back("no beam of any scan has a return; expected at least one");
+  }
   health.suspicions = suspicions_of(health, log.robot, limits);
   return health;
 }

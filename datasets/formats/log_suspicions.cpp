@@ -11,6 +11,8 @@ namespace {
 // No sensor of a moving robot is as slow, none of the LiDARs as fast.
 constexpr double kSlowestStep_s = 4;
 constexpr double kFastestScan_s = 2e-3;
+// In milliseconds even the slowest readings are no farther apart.
+constexpr double kSlowestStep_ms = 1000 * kSlowestStep_s;
 // Ranges of planar LiDARs: farther is centimetres or millimetres, nearer a factor too many.
 constexpr double kFarRange_m = 100;
 constexpr double kFarLimit_m = 1000;
@@ -110,8 +112,9 @@ class Suspicions {
 
   void suspect_stamps(const char* sensor, const StampHealth& stamps) {
     if (stamps.median_step_s > kSlowestStep_s) {
-      add(fmt::format("{}: {:.3f} s between readings; milliseconds for seconds?", sensor,
-                      stamps.median_step_s));
+      add(fmt::format("{}: {:.3f} s between readings; {} for seconds?", sensor,
+                      stamps.median_step_s,
+                      stamps.median_step_s > kSlowestStep_ms ? "microseconds" : "milliseconds"));
     }
     if (stamps.longest_gap_s > kSlowestStep_s && stamps.num_gaps > 0) {
       add(fmt::format(

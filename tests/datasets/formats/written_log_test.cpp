@@ -1,9 +1,13 @@
 // What is written is read again: by whom nothing is lost, and what a format cannot hold.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 
 #include "datasets/formats/log_io.hpp"
+#include "slam/core/rng.hpp"
 #include "slam/core/units.hpp"
 #include "tests/datasets/formats/golden_support.hpp"
 
@@ -41,6 +45,47 @@ TEST(WrittenLog, IsReadAgainInEveryFormat) {
       ASSERT_TRUE(write_log(log, folder / name));
       const auto good = check_written_log(log, folder / name);
       EXPECT_TRUE(good.has_value()) << name << ": " << good.error().to_line();
+    }
+  }
+}
+
+// Ends this process: with 0 if the log could not be written, for want of room, and nothing of it is
+// left.
+[[noreturn]] void write_where_files_end_at(std::uintmax_t num_bytes, const SensorLog& log,
+                                           const ScratchFolder& folder, const std::string& name) {
+  const rlimit limit{num_bytes, num_bytes};
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (setrlimit(RLIMIT_FSIZE, &limit) != 0) std::_Exit(2);
+  const auto refused = write_log(log, folder / name);
+  if (refused) std::_Exit(3);
+  const bool is_clear = refused.error().what.find("cannot be written: File too large") == 0 &&
+                        refused.error().where == (folder / name).string();
+  std::_Exit(is_clear && std::filesystem::is_empty(folder.path()) ? 0 : 1);
+}
+
+TEST(WrittenLogDeathTest, WithoutRoomIsAnErrorInEveryFormatAndLeavesNothing) {
+  // Longer than a chunk of a bag, whose readings are not compressible.
+  SensorLog log = small_log();
+  const LaserScan scan = std::get<LaserScan>(log.events.back());
+  Rng rng(1);
+  for (int i = 0; i < 1000; ++i) {
+    LaserScan next = scan;
+    next.stamp.nanoseconds += 100'000'000LL * (i + 1);
+    next.ranges_m.resize(360);
+    for (float& range_m : next.ranges_m) range_m = static_cast<float>(rng.uniform(0.1, 4.4));
+    next.is_valid.assign(360, 1);
+    log.events.emplace_back(std::move(next));
+  }
+  for (const char* name : {"a.clf", "a.clf.gz", "a.rawlog", "a.bag"}) {
+    const ScratchFolder whole;
+    ASSERT_TRUE(write_log(log, whole / name));
+    const std::uintmax_t num_bytes = std::filesystem::file_size(whole / name);
+    for (const std::uintmax_t room :
+         {std::uintmax_t{0}, std::uintmax_t{100}, num_bytes / 2, num_bytes - 1}) {
+      const ScratchFolder folder;
+      EXPECT_EXIT(write_where_files_end_at(room, log, folder, name), ::testing::ExitedWithCode(0),
+                  "")
+          << name << " with room for " << room << " of " << num_bytes << " bytes";
     }
   }
 }
