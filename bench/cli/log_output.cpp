@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "datasets/formats/file_bytes.hpp"
+#include "slam/core/counted.hpp"
 
 namespace corridor::cli {
 namespace {
@@ -92,9 +93,9 @@ Result<void> write_log_whole(const SensorLog& log, const fs::path& out,
 
 std::string text_of_held(const SensorLog& log, formats::LogFormat format) {
   const formats::ReadingCounts held = formats::readings_held(log, format);
-  std::string text =
-      fmt::format("{} scans, {} wheel samples", held.num_scans, held.num_wheel_samples);
-  if (held.num_imu_samples > 0) text += fmt::format(", {} inertial samples", held.num_imu_samples);
+  std::string text = fmt::format("{}, {}", counted(held.num_scans, "scan"),
+                                 counted(held.num_wheel_samples, "wheel sample"));
+  if (held.num_imu_samples > 0) text += ", " + counted(held.num_imu_samples, "inertial sample");
   return text;
 }
 

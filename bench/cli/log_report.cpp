@@ -104,6 +104,29 @@ Json robot_json(const RobotModel& robot) {
   return Json::parse(text.str());
 }
 
+// Paths of the values that nobody states.
+std::vector<std::string> assumed_keys(const LogReport& report) {
+  std::vector<std::string> assumed;
+  for (const formats::RobotEntry& entry : formats::robot_entries(report.log->robot)) {
+    if (!formats::states(*report.robot_keys, entry.path())) assumed.push_back(entry.path());
+  }
+  return assumed;
+}
+
+// As TOML that LOG.robot.toml can start from.
+std::string robot_lines(const LogReport& report) {
+  std::string text = "robot model:\n";
+  std::string_view table;
+  for (const formats::RobotEntry& entry : formats::robot_entries(report.log->robot)) {
+    if (entry.table != table) text += fmt::format("  [{}]\n", entry.table);
+    table = entry.table;
+    const bool is_stated = formats::states(*report.robot_keys, entry.path());
+    text += fmt::format("  {} = {}{}\n", entry.key, runner::printable(entry.value),
+                        is_stated ? "" : "  # assumed");
+  }
+  return text;
+}
+
 std::string number_text(double value) { return fmt::format("{:.3f}", value); }
 
 std::string number_or_dash(const std::optional<double>& value) {
@@ -211,6 +234,7 @@ Json to_json(const LogReport& report) {
           {"num_relations", report.num_relations ? Json(*report.num_relations) : Json(nullptr)},
           {"is_truth_reference", log.provenance.is_truth_reference},
           {"robot_model", robot_json(log.robot)},
+          {"assumed", assumed_keys(report)},
           {"notes", log.provenance.notes},
           {"suspicions", health.suspicions},
           {"defects", health.defects}};
@@ -222,12 +246,7 @@ std::string to_text(const LogReport& report) {
   std::string text = fmt::format("{} ({}, {}), {:.3f} s\n", runner::printable(log.provenance.name),
                                  log.provenance.format, runner::printable(log.provenance.source),
                                  health.duration_s);
-  text += stamp_rows(health) + sensor_lines(report);
-  std::istringstream robot(formats::robot_to_toml(log.robot));
-  text += "robot model:\n";
-  for (std::string line; std::getline(robot, line);) {
-    if (!line.empty()) text += "  " + runner::printable(line) + "\n";
-  }
+  text += stamp_rows(health) + sensor_lines(report) + robot_lines(report);
   const std::size_t all = log.provenance.notes.size() + health.suspicions.size();
   text += lines_of("note", log.provenance.notes, all);
   text += lines_of("suspicious", health.suspicions, all);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "datasets/formats/log_health.hpp"
+#include "datasets/formats/robot_keys.hpp"
 #include "slam/core/sensor_log.hpp"
 
 namespace corridor::cli {
@@ -13,6 +14,7 @@ namespace corridor::cli {
 struct LogReport {
   const SensorLog* log = nullptr;
   const formats::LogHealth* health = nullptr;
+  const formats::RobotKeys* robot_keys = nullptr;  // what is stated of the robot model
   std::optional<std::size_t> num_relations;
 };
 

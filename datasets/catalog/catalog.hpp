@@ -63,6 +63,7 @@ struct CatalogEntry {
   std::optional<double> no_return_range_m;
   std::optional<double> cut_after_s;
   std::optional<RobotModel> robot;  // calibration for logs that carry none
+  formats::RobotKeys robot_keys;    // what it states
   formats::RawSensors raw;
   std::optional<formats::BagTopics> topics;  // of a ROS bag
   // Where it is stated, and the data folder that alone has its files; none: any data folder.

@@ -15,34 +15,42 @@ namespace {
 // Of a catalogue in a data folder.
 constexpr const char* kCatalogName = "catalog.toml";
 
-void refuse_repeated_names(const Catalog& catalog, std::vector<std::string>& wrong) {
+void refuse_repeated_names(const Catalog& catalog, std::vector<formats::TomlProblem>& problems) {
   for (const CatalogEntry& entry : catalog.entries) {
     const CatalogEntry* first = catalog.find(entry.name);
     if (first == &entry) continue;
-    wrong.push_back(fmt::format("line {}: name {} is given twice, first in line {}", entry.line,
-                                entry.name, first->line));
+    problems.push_back({entry.line, fmt::format("name {} is given twice, first in line {}",
+                                                entry.name, first->line)});
   }
 }
 
-Catalog take_catalog(const toml::table& document, std::vector<std::string>& wrong) {
+Catalog take_catalog(const toml::table& document, std::vector<formats::TomlProblem>& problems) {
   Catalog catalog;
-  for (const auto& [key, node] : document) {
-    if (key.str() != "dataset") wrong.push_back(line_text(node, key.str(), "unknown key"));
-  }
+  formats::find_unknown_keys(document, "", {"dataset"}, problems);
   const toml::array* datasets = document["dataset"].as_array();
   if (datasets == nullptr) {
-    wrong.emplace_back("dataset: missing or not a list of tables");
+    problems.push_back({0, "dataset: missing or no list of tables; expected [[dataset]]"});
     return catalog;
   }
   for (const toml::node& node : *datasets) {
     if (const toml::table* table = node.as_table()) {
-      catalog.entries.push_back(read_entry(*table, wrong));
+      catalog.entries.push_back(read_entry(*table, problems));
     } else {
-      wrong.push_back(line_text(node, "dataset", "not a table"));
+      problems.push_back({node.source().begin.line, "dataset: not a table; expected [[dataset]]"});
     }
   }
-  refuse_repeated_names(catalog, wrong);
+  refuse_repeated_names(catalog, problems);
   return catalog;
+}
+
+// The file is named once: a catalogue is one Error, however many entries it has.
+std::string text_of(const std::vector<formats::TomlProblem>& problems) {
+  std::vector<std::string> lines;
+  for (const formats::TomlProblem& problem : problems) {
+    lines.push_back(problem.line == 0 ? problem.text
+                                      : fmt::format("line {}: {}", problem.line, problem.text));
+  }
+  return fmt::format("{}", fmt::join(lines, "; "));
 }
 
 std::string place_of(const CatalogEntry& entry) {
@@ -75,12 +83,9 @@ Result<Catalog> read_catalog(const std::filesystem::path& path) {
     return fail(ErrorCode::kMalformed, std::string(error.description()),
                 fmt::format("{}:{}", path.string(), error.source().begin.line), "TOML");
   }
-  std::vector<std::string> wrong;
-  Catalog catalog = take_catalog(document, wrong);
-  if (!wrong.empty()) {
-    return fail(ErrorCode::kInvalid, fmt::format("{}", fmt::join(wrong, "; ")), path.string(),
-                "a valid catalogue");
-  }
+  std::vector<formats::TomlProblem> problems;
+  Catalog catalog = take_catalog(document, problems);
+  if (!problems.empty()) return fail(ErrorCode::kInvalid, text_of(problems), path.string());
   for (CatalogEntry& entry : catalog.entries) entry.catalog_file = path;
   return catalog;
 }

@@ -6,34 +6,35 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <sstream>
+#include <utility>
 
 #include "datasets/catalog/entry_files.hpp"
 #include "datasets/catalog/public_url.hpp"
-#include "datasets/formats/bag/bag_topics.hpp"
-#include "datasets/formats/robot_toml.hpp"
+#include "datasets/formats/bag/topics_table.hpp"
+#include "datasets/formats/robot_table.hpp"
+#include "datasets/formats/toml_text.hpp"
 
 namespace corridor::catalog {
 namespace {
 
 constexpr std::size_t kSha256Digits = 64;
-constexpr std::array<std::string_view, 17> kKeys = {"name",
-                                                    "title",
-                                                    "format",
-                                                    "files",
-                                                    "truth",
-                                                    "order",
-                                                    "licence",
-                                                    "source",
-                                                    "topics",
-                                                    "joints",
-                                                    "cut_after_s",
-                                                    "calibration",
-                                                    "companions",
-                                                    "no_return_range_m",
-                                                    "not_fetchable",
-                                                    "order_of_other_files",
-                                                    "companions_not_fetchable"};
+constexpr std::array kKeys = {"name",
+                              "title",
+                              "format",
+                              "files",
+                              "truth",
+                              "order",
+                              "licence",
+                              "source",
+                              "topics",
+                              "joints",
+                              "cut_after_s",
+                              "calibration",
+                              "companions",
+                              "no_return_range_m",
+                              "not_fetchable",
+                              "order_of_other_files",
+                              "companions_not_fetchable"};
 constexpr std::array<std::string_view, 4> kFileKeys = {"path", "sha256", "content_sha256", "url"};
 
 bool is_sha256(std::string_view text) {
@@ -46,16 +47,12 @@ constexpr const char* kFileForm =
 
 class EntryReader {
  public:
-  EntryReader(const toml::table& table, std::vector<std::string>& wrong)
-      : table_(table), wrong_(wrong) {}
+  EntryReader(const toml::table& table, std::vector<formats::TomlProblem>& problems)
+      : table_(table), problems_(problems) {}
 
   CatalogEntry read() {
-    const std::size_t num_wrong_before = wrong_.size();
-    for (const auto& [key, node] : table_) {
-      if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) {
-        complain(key.str(), "unknown key");
-      }
-    }
+    const std::size_t num_problems_before = problems_.size();
+    formats::find_unknown_keys(table_, "", {kKeys.begin(), kKeys.end()}, problems_);
     entry_.name = text("name");
     entry_.title = text("title");
     entry_.format = text("format");
@@ -69,7 +66,7 @@ class EntryReader {
     entry_.cut_after_s = positive_number("cut_after_s");
     take_calibration();
     take_topics();
-    if (wrong_.size() == num_wrong_before) {
+    if (problems_.size() == num_problems_before) {
       for (const EntryProblem& problem : unfit_files(entry_)) complain(problem.key, problem.what);
     }
     return std::move(entry_);
@@ -82,25 +79,7 @@ class EntryReader {
   }
 
   void complain(const toml::node& node, std::string_view key, std::string_view what) {
-    wrong_.push_back(line_text(node, key, what));
-  }
-
-  // Of what the reader of a table says, "robot model: wheels.trak_m: unknown key; ...", each in the
-  // line of its key.
-  void complain_of_each(std::string_view parent, std::string_view said) {
-    constexpr std::string_view kIntroduction = "robot model: ";
-    if (said.starts_with(kIntroduction)) said.remove_prefix(kIntroduction.size());
-    while (!said.empty()) {
-      const std::size_t end = said.find("; ");
-      const std::string_view part = said.substr(0, end);
-      said.remove_prefix(end == std::string_view::npos ? said.size() : end + 2);
-      const std::string key =
-          fmt::format("{}{}", parent, part.substr(0, part.find_first_of(": =")));
-      const toml::node* node = table_.at_path(key).node();
-      if (node == nullptr) node = table_.get(key.substr(0, key.find('.')));
-      const auto line = (node == nullptr ? table_ : *node).source().begin.line;
-      wrong_.push_back(fmt::format("line {}: {}{}", line, parent, part));
-    }
+    problems_.push_back({node.source().begin.line, fmt::format("{}: {}", key, what)});
   }
 
   std::string text(std::string_view key) {
@@ -222,58 +201,40 @@ class EntryReader {
   void take_calibration() {
     const auto node = table_["calibration"];
     if (!node) return;
-    if (!node.is_table() || node.as_table()->empty()) {
+    if (!node.is_table() || formats::states_nothing(*node.as_table())) {
       complain("calibration", "not a table, or one that states nothing");
       return;
     }
-    std::ostringstream toml_text;
-    toml_text << toml::default_formatter(*node.as_table());
-    auto stated = formats::override_robot(RobotModel{}, toml_text.str(), "calibration");
-    if (!stated) {
-      complain_of_each("calibration.", stated.error().what);
-    } else {
-      entry_.robot = std::move(stated->robot);
-      entry_.raw = stated->raw;
-    }
+    formats::RobotOverride stated = formats::read_robot_table(
+        *node.as_table(), "calibration", formats::RobotTables::kOverride, {}, problems_);
+    entry_.robot = std::move(stated.robot);
+    entry_.robot_keys = std::move(stated.keys);
+    entry_.raw = stated.raw;
   }
 
   // The tables [topics] and [joints] of LOG.topics.toml, as keys of the entry.
   void take_topics() {
-    toml::table stated;
+    if (!table_.contains("topics") && !table_.contains("joints")) return;
     for (const char* key : {"topics", "joints"}) {
-      const toml::node* node = table_.get(key);
-      if (node == nullptr) continue;
-      if (node->is_table() && node->as_table()->empty()) complain(key, "states nothing");
-      stated.insert(key, *node);
+      const toml::table* tables = table_[key].as_table();
+      if (tables != nullptr && formats::states_nothing(*tables)) complain(key, "states nothing");
     }
-    if (stated.empty()) return;
     if (entry_.format != "rosbag") {
       complain(table_.contains("topics") ? "topics" : "joints", "only a rosbag has topics");
       return;
     }
-    std::ostringstream toml_text;
-    toml_text << toml::default_formatter(stated);
-    auto topics = formats::bag_topics_from_toml(toml_text.str(), "topics");
-    if (!topics) {
-      complain_of_each("", topics.error().what);
-    } else {
-      entry_.topics = std::move(*topics);
-    }
+    entry_.topics = formats::read_bag_topics(table_, problems_);
   }
 
   const toml::table& table_;
-  std::vector<std::string>& wrong_;
+  std::vector<formats::TomlProblem>& problems_;
   CatalogEntry entry_;
 };
 
 }  // namespace
 
-std::string line_text(const toml::node& node, std::string_view key, std::string_view what) {
-  return fmt::format("line {}: {}: {}", node.source().begin.line, key, what);
-}
-
-CatalogEntry read_entry(const toml::table& table, std::vector<std::string>& wrong) {
-  CatalogEntry entry = EntryReader(table, wrong).read();
+CatalogEntry read_entry(const toml::table& table, std::vector<formats::TomlProblem>& problems) {
+  CatalogEntry entry = EntryReader(table, problems).read();
   entry.line = table.source().begin.line;
   return entry;
 }

@@ -3,17 +3,14 @@
 
 #include <toml++/toml.h>
 
-#include <string>
 #include <vector>
 
 #include "datasets/catalog/catalog.hpp"
+#include "datasets/formats/toml_problems.hpp"
 
 namespace corridor::catalog {
 
-// "line 12: colour: unknown key", in the line of the key where it is there.
-std::string line_text(const toml::node& node, std::string_view key, std::string_view what);
-
 // Appends what is wrong; the entry is fit only if nothing was.
-CatalogEntry read_entry(const toml::table& table, std::vector<std::string>& wrong);
+CatalogEntry read_entry(const toml::table& table, std::vector<formats::TomlProblem>& problems);
 
 }  // namespace corridor::catalog

@@ -172,6 +172,7 @@ Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
   read.order = options.order.value_or(is_other ? *entry.order_of_other_files : entry.order);
   read.no_return_range_m = entry.no_return_range_m;
   read.robot = entry.robot;
+  read.robot_keys = entry.robot_keys;
   read.raw = entry.raw;
   read.cut_after_s = entry.cut_after_s;
   read.topics = entry.topics;

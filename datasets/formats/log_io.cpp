@@ -32,12 +32,13 @@ Result<void> settle_order(ParsedLog& parsed, const std::string& file, StampOrder
   return {};
 }
 
-Result<RobotModel> settle_calibration(ParsedLog& parsed, const std::filesystem::path& path,
-                                      const std::optional<Sidecar>& sidecar,
-                                      const ReadLogOptions& options,
-                                      std::vector<std::string>& notes) {
+Result<StatedRobot> settle_calibration(ParsedLog& parsed, const std::filesystem::path& path,
+                                       const std::optional<Sidecar>& sidecar,
+                                       const ReadLogOptions& options,
+                                       std::vector<std::string>& notes) {
   CalibrationSources sources;
   sources.caller = options.robot;
+  sources.caller_keys = options.robot_keys;
   sources.file = path.string();
   if (sidecar) {
     sources.sidecar_toml = sidecar->text;
@@ -134,11 +135,12 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
   auto settled = judge(settle_order(*parsed, path.string(), options.order, notes), refusals, notes);
   if (!settled) return tl::make_unexpected(settled.error());
   if (options.cut_after_s) cut_after(parsed->events, *options.cut_after_s, log.provenance);
-  auto robot = settle_calibration(*parsed, path, *sidecar, options, notes);
-  if (!robot) return tl::make_unexpected(robot.error());
+  auto stated = settle_calibration(*parsed, path, *sidecar, options, notes);
+  if (!stated) return tl::make_unexpected(stated.error());
   note_counts(parsed->left_out, notes);
   if (!parsed->left_out.empty()) log.provenance.has_left_out = true;
-  log.robot = std::move(*robot);
+  log.robot = std::move(stated->robot);
+  found.robot_keys = std::move(stated->keys);
   log.events = std::move(parsed->events);
   if (parsed->has_wheel_ticks_only) {
     auto integrated =

@@ -15,6 +15,7 @@
 
 #include "datasets/formats/bag/bag_topics.hpp"
 #include "datasets/formats/raw_sensors.hpp"
+#include "datasets/formats/robot_keys.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/sensor_log.hpp"
 
@@ -61,6 +62,8 @@ struct ReadLogOptions {
   // Calibration for logs that carry none; a log's own model and LOG.robot.toml go before it. LCM
   // and tick logs need the wheels of either to turn ticks into odometry.
   std::optional<RobotModel> robot;
+  // What somebody states of `robot`; its other values are assumed.
+  RobotKeys robot_keys;
   // LCM: what the raw numbers mean; the table [raw] of LOG.robot.toml goes before it.
   RawSensors raw;
   // Readings later than this after the first are left out and counted: where a recording goes on
@@ -91,6 +94,8 @@ Result<SensorLog> read_log(const std::filesystem::path& path, const ReadLogOptio
 // A log whatever its readings are like, for those who look for what is wrong with it.
 struct LogAsFound {
   SensorLog log;  // may break every rule that defects() checks
+  // Of its robot model, what the log or a calibration states; the other values are assumed.
+  RobotKeys robot_keys;
   // Where in the file each event stands, and in what this is counted: "line", "byte".
   std::vector<std::uint64_t> origins;
   std::string origin_unit;

@@ -57,12 +57,12 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
                     : parse_lcm(bytes, file, {stated.raw, stated.robot});
   // What is no log of the format needs no calibration; its readings may look wrong for lack of one.
   const bool is_of_format = parsed || parsed.error().code == ErrorCode::kInvalid;
-  if (is_of_format && !options.robot && !stated.states_wheels) {
+  if (is_of_format && !options.robot && !states_all(stated.keys, kTickKeys)) {
     return fail(ErrorCode::kInvalid, "nothing says what a tick of the wheels means", file,
                 "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
                     sidecar_of(file, ".robot.toml").string());
   }
-  const bool is_limit_stated = options.robot || stated.states_range_max;
+  const bool is_limit_stated = options.robot || states(stated.keys, "lidar.range_max_m");
   if (parsed && format == LogFormat::kTicks && !is_limit_stated) {
     parsed->notes.push_back(
         fmt::format("tick logs state no limit: {} m is assumed, which may take codes for returns",

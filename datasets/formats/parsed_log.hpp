@@ -63,6 +63,8 @@ struct ParsedLog {
   std::optional<std::string> robot_toml;
   // False for FLASER lines, which do not say where the LiDAR sits.
   bool scans_state_pose = true;
+  // False where the scans' range_max_m is the model's, or one that is assumed.
+  bool scans_state_range_max = true;
   // True for logs with a moment for each beam: the scans' duration_s stands, the model's follows.
   bool scans_state_duration = false;
   // True where scans were turned round to be counter-clockwise: without a moment for each beam

@@ -5,34 +5,41 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "datasets/formats/raw_sensors.hpp"
+#include "datasets/formats/robot_keys.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/robot_model.hpp"
 
 namespace corridor::formats {
 
-// Every key, with as many digits as give back the same numbers.
+struct RobotEntry {
+  std::string_view table;  // "wheels"
+  std::string_view key;    // "track_m"
+  std::string value;       // as TOML, with as many digits as give back the same number
+
+  [[nodiscard]] std::string path() const;  // "wheels.track_m"
+};
+
+// Every value of a model, table by table.
+std::vector<RobotEntry> robot_entries(const RobotModel& robot);
+
+// The same as a document.
 std::string robot_to_toml(const RobotModel& robot);
 
 // wheels.track_m, left_m_per_tick and right_m_per_tick are required. The Error lists every
-// violation.
-Result<RobotModel> robot_from_toml(std::string_view text, std::string_view where);
+// violation, each with its line of `where`.
+Result<StatedRobot> robot_from_toml(std::string_view text, std::string_view where);
 
 // What a text says about the sensors, to be laid over another model.
 struct RobotOverride {
-  RobotModel robot;                // `base` with the text's keys put in
-  RawSensors raw;                  // as above
-  bool states_wheels = false;      // track_m, left_m_per_tick and right_m_per_tick
-  bool states_lidar_pose = false;  // any of lidar.x_m, y_m, yaw_deg
-  bool states_range_max = false;
-  bool states_range_min = false;
-  bool states_range_sigma = false;
-  bool states_scan_duration = false;
-  bool states_imu_pose = false;  // any of imu.x_m, y_m, yaw_deg
+  RobotModel robot;  // the base with the text's keys put in
+  RobotKeys keys;    // the text's
+  RawSensors raw;    // as `robot`
 };
 
-// Nothing is required: keys that are not there keep the value of `base`.
+// Nothing is required: keys that are not there keep the value of `base`. Errors as above.
 Result<RobotOverride> override_robot(const RobotModel& base, std::string_view text,
                                      std::string_view where, const RawSensors& raw_base = {});
 

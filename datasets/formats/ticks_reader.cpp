@@ -37,6 +37,7 @@ class TicksParser {
       : file_(file), robot_(robot), clock_(clock), wheels_(robot.wheels) {
     log_.origin_unit = "line";
     log_.scans_state_pose = false;
+    log_.scans_state_range_max = false;
     log_.is_time_offset_applied = true;
   }
 

@@ -6,16 +6,12 @@
 #include <string>
 
 namespace corridor::formats {
-namespace {
 
-// By tables within tables no deeper than the parser goes.
 bool states_nothing(const toml::table& table) {
   return std::all_of(table.cbegin(), table.cend(), [](const auto& item) {
     return item.second.is_table() && states_nothing(*item.second.as_table());
   });
 }
-
-}  // namespace
 
 Result<toml::table> parse_toml_text(std::string_view text, std::string_view where) {
   try {

@@ -10,6 +10,9 @@
 
 namespace corridor::formats {
 
+// True for no key but tables of none, which may lie within tables as deep as the parser goes.
+bool states_nothing(const toml::table& table);
+
 // The Error names the line of `where` in which the syntax is broken. A text without a key, be it
 // tables of none, is one too: all defaults would pass for what somebody asked for.
 Result<toml::table> parse_toml_text(std::string_view text, std::string_view where);

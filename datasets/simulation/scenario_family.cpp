@@ -95,7 +95,7 @@ Result<std::optional<Family>> read_family(const fs::path& path) {
   if (const toml::table* table = node->as_table()) {
     family = read_family_table(*table, *scenario, problems);
   } else {
-    problems.push_back({node->source().begin.line, "family is not a table; expected [family]"});
+    problems.push_back(formats::no_table(*node, "family"));
   }
   if (!problems.empty()) return tl::make_unexpected(to_error(path, problems));
   return std::optional<Family>(std::move(family));

@@ -45,7 +45,7 @@ class ScenarioReader {
     find_unknown_keys(*document_, "", known_, problems_);
     if (is_world_read) {
       for (std::string& line : violations(scenario)) {
-        const std::uint32_t line_number = line_of_violation(line);
+        const std::uint32_t line_number = formats::line_of_violation(*document_, line);
         problems_.push_back({line_number, std::move(line)});
       }
     }
@@ -84,7 +84,7 @@ class ScenarioReader {
     known_.emplace_back(key);
     const toml::node* node = document_->get(key);
     if (node != nullptr && !read_value(*node, text)) {
-      problem(*node, fmt::format("{} has another type; expected text", key));
+      problems_.push_back(formats::wrong_type(*node, key, "text"));
     }
   }
 
@@ -105,7 +105,7 @@ class ScenarioReader {
     if (node == nullptr) return;
     const toml::table* table = node->as_table();
     if (table == nullptr) {
-      problem(*node, "world is not a table; expected [world]");
+      problems_.push_back(formats::no_table(*node, "world"));
     } else if (table->contains("map")) {
       scenario.world = read_map(*table);
     } else if (table->contains("polygons") || table->contains("arcs")) {
@@ -141,7 +141,8 @@ class ScenarioReader {
     std::string name;
     World world;
     if (!read_value(*table.get("map"), name)) {
-      problem(*table.get("map"), "world.map has another type; expected the name of a yaml file");
+      problems_.push_back(
+          formats::wrong_type(*table.get("map"), "world.map", "the name of a yaml file"));
       return world;
     }
     const Result<GridMap> map = formats::read_ros_map(path_.parent_path() / name);
@@ -164,13 +165,13 @@ class ScenarioReader {
     if (node == nullptr) return;
     const toml::table* table = node->as_table();
     if (table == nullptr) {
-      problem(*node, fmt::format("{} is not a table; expected [{}]", section, section));
+      problems_.push_back(formats::no_table(*node, section));
       return;
     }
     std::string name;
     const toml::node* preset = table->get("preset");
     if (preset != nullptr && !read_value(*preset, name)) {
-      problem(*preset, fmt::format("{}.preset has another type; expected text", section));
+      problems_.push_back(formats::wrong_type(*preset, fmt::format("{}.preset", section), "text"));
     } else if (preset != nullptr && !has_preset) {
       read_preset(section, name, preset->source().begin.line, params);
     }
@@ -204,17 +205,6 @@ class ScenarioReader {
     if (table == nullptr) return names;
     for (const auto& [key, value] : *table) names.emplace_back(key.str());
     return names;
-  }
-
-  // "lidar.range_max_m = 3: expected ..." stands in the line of that key.
-  std::uint32_t line_of_violation(std::string_view violation) const {
-    const std::size_t point = violation.find('.');
-    const std::size_t space = violation.find_first_of(" :");
-    if (point == std::string_view::npos || space == std::string_view::npos || point > space) {
-      return 0;
-    }
-    return line_of(*document_, violation.substr(0, point),
-                   violation.substr(point + 1, space - point - 1));
   }
 
   void problem(const toml::node& node, std::string text) {

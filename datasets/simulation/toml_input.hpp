@@ -5,56 +5,25 @@
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "datasets/formats/toml_problems.hpp"
 #include "slam/core/params.hpp"
 #include "slam/core/result.hpp"
 
 namespace corridor::simulation {
 
-struct TomlProblem {
-  std::uint32_t line = 0;  // 0 = the whole file
-  std::string text;        // what; expected ...
-};
+using formats::find_unknown_keys;
+using formats::read_value;
+using formats::to_error;
+using formats::TomlProblem;
 
 // Fails with the file and the line of a syntax error, or if the file states nothing.
 Result<toml::table> parse_toml(const std::filesystem::path& path);
-
-// "file:line: text; file:line: text" as one Error. Requires a problem.
-Error to_error(const std::filesystem::path& path, const std::vector<TomlProblem>& problems);
-
-// Line of section.key, or of the section, or 0.
-std::uint32_t line_of(const toml::table& document, std::string_view section, std::string_view key);
-
-// One problem per key of the table that is not in `known`.
-void find_unknown_keys(const toml::table& table, std::string_view section,
-                       const std::vector<std::string>& known, std::vector<TomlProblem>& problems);
-
-// Numbers may be written without a point; nothing else is converted. False = wrong type.
-template <class T>
-bool read_value(const toml::node& node, T& value) {
-  if constexpr (std::is_same_v<T, double>) {
-    if (!node.is_number()) return false;
-    const auto found = node.value<double>();  // none for an integer that no double holds
-    if (!found) return false;
-    value = *found;
-  } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
-    const auto found = node.value_exact<T>();
-    if (!found) return false;
-    value = *found;
-  } else {
-    const auto found = node.value_exact<std::int64_t>();
-    if (!found || !std::in_range<T>(*found)) return false;
-    value = static_cast<T>(*found);
-  }
-  return true;
-}
 
 // "[x, y]" and a list of such; numbers only. What is not is a problem and reads as (0, 0).
 Eigen::Vector2d read_point(const toml::node& node, std::string_view key,
@@ -81,15 +50,8 @@ void read_table(const toml::table& table, std::string_view section, MissingKeys 
             {table.source().begin.line, fmt::format("{}.{} is missing; expected {}", section,
                                                     info.name, detail::type_name<T>())});
       }
-    } else if (!read_value(*node, field)) {
-      problems.push_back(
-          {node->source().begin.line, fmt::format("{}.{} has another type; expected {}", section,
-                                                  info.name, detail::type_name<T>())});
-    } else if constexpr (std::is_same_v<T, double>) {
-      if (std::isfinite(field)) return;
-      problems.push_back(
-          {node->source().begin.line,
-           fmt::format("{}.{} is not finite; expected a number", section, info.name)});
+    } else {
+      formats::read_field(*node, fmt::format("{}.{}", section, info.name), field, problems);
     }
   });
   find_unknown_keys(table, section, known, problems);

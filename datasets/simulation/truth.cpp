@@ -143,7 +143,7 @@ void take_rows(toml::table& document, std::string_view section, std::string_view
   const std::string name = fmt::format("{}.{}", section, key);
   const toml::array* array = node->as_array();
   if (array == nullptr) {
-    problems.push_back({node->source().begin.line, name + " has another type; expected a list"});
+    problems.push_back(formats::wrong_type(*node, name, "a list"));
   } else {
     for (const toml::node& element : *array) {
       Row row{};

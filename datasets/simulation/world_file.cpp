@@ -74,7 +74,8 @@ class DrawingReader {
     if (node == nullptr) return;
     const toml::array* rows = node->as_array();
     if (rows == nullptr) {
-      problem(*node, fmt::format("world.{} has another type; expected a list of tables", key));
+      problems_.push_back(
+          formats::wrong_type(*node, fmt::format("world.{}", key), "a list of tables"));
       return;
     }
     for (const toml::node& row : *rows) {

@@ -9,10 +9,10 @@ namespace corridor::fuzz {
 
 bool robot_toml(std::string_view bytes) {
   const auto stated = formats::override_robot(RobotModel{}, bytes, "log.robot.toml");
-  const auto robot = formats::robot_from_toml(bytes, "log");
-  if (!robot) return stated.has_value();
-  const auto again = formats::robot_from_toml(formats::robot_to_toml(*robot), "log");
-  CORRIDOR_EXPECT(again.has_value() && again->name == robot->name);
+  const auto complete = formats::robot_from_toml(bytes, "log");
+  if (!complete) return stated.has_value();
+  const auto again = formats::robot_from_toml(formats::robot_to_toml(complete->robot), "log");
+  CORRIDOR_EXPECT(again.has_value() && again->robot.name == complete->robot.name);
   return true;
 }
 

@@ -19,10 +19,10 @@ std::optional<SensorLog> finish(formats::ParsedLog parsed,
   sources.file = "log";
   sources.sidecar_file = "log.robot.toml";
   std::vector<std::string> notes;
-  const auto robot = formats::calibrate(parsed, sources, notes);
-  if (!robot) return std::nullopt;
+  const auto stated = formats::calibrate(parsed, sources, notes);
+  if (!stated) return std::nullopt;
   SensorLog log;
-  log.robot = *robot;
+  log.robot = stated->robot;
   log.events = std::move(parsed.events);
   if (parsed.has_wheel_ticks_only &&
       !formats::integrate_wheel_ticks(log.events, log.robot.wheels, "log")) {

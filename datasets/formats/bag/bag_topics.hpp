@@ -35,8 +35,8 @@ struct BagTopics {
   std::optional<WheelJoints> joints;  // only if named: they stand in for the odometry
 };
 
-// The Error lists every violation: unknown keys, values that are no text, joints without names or
-// ticks, joints together with odometry.
+// The Error lists every violation with its line: unknown keys, values that are no text, joints
+// without names or ticks, joints together with odometry.
 Result<BagTopics> bag_topics_from_toml(std::string_view text, const std::string& where);
 
 }  // namespace corridor::formats

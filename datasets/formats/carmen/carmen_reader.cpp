@@ -146,6 +146,7 @@ class CarmenParser {
 
   void take_flaser(LineReader& reader) {
     log_.scans_state_pose = false;
+    log_.scans_state_range_max = options_.no_return_range_m.has_value();
     LaserScan scan;
     const std::size_t num_beams = reader.count("number of ranges", 1, kMaxBeams);
     scan.range_max_m = options_.no_return_range_m.value_or(options_.flaser_range_max_m);

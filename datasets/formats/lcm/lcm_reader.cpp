@@ -56,6 +56,7 @@ class LcmAssembler {
       : in_(std::move(messages)), file_(file), options_(options), wheels_(options.robot.wheels) {
     out_.origin_unit = "byte";
     out_.scans_state_pose = false;
+    out_.scans_state_range_max = false;
     out_.scans_state_duration = true;
     out_.is_time_offset_applied = true;
     out_.counts = std::move(in_.counts);

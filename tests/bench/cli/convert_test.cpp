@@ -88,7 +88,7 @@ TEST(Convert, DoesNotCallNothingLostWhatTheReaderLeftOut) {
   const Answer answer = run_program(folder, "convert a.clf b.rawlog");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   for (const char* part : {"note: 2 lines lose their host and the logger's stamp",
-                           "b.rawlog: 1 scans, 2 wheel samples, nothing lost but what the notes"}) {
+                           "b.rawlog: 1 scan, 2 wheel samples, nothing lost but what the notes"}) {
     EXPECT_NE(answer.out.find(part), std::string::npos) << part << " in " << answer.out;
   }
 }

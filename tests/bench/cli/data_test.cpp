@@ -285,18 +285,5 @@ TEST(RunOnALog, WhoseTruthIsInCentimetresSaysSoBesideTheStatus) {
       << answer.out << answer.err;
 }
 
-TEST(Inspect, OfASimulatedLogKnowsItsTruthAndFindsTheGyroInAgreement) {
-  const ScratchFolder folder;
-  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
-  const Answer answer = run_program(folder, "data inspect a.rawlog --json");
-  ASSERT_EQ(answer.exit_code, 0) << answer.err << answer.out;
-  const auto report = nlohmann::json::parse(answer.out);
-  EXPECT_EQ(report.at("suspicions").size(), 0U) << report.at("suspicions").dump();
-  EXPECT_EQ(report.at("truth").at("scans_with_pose_ratio"), 1.0);
-  EXPECT_NEAR(report.at("truth").at("path_m").get<double>(),
-              report.at("wheels").at("path_m").get<double>(),
-              0.1 * report.at("truth").at("path_m").get<double>());
-}
-
 }  // namespace
 }  // namespace corridor::testing

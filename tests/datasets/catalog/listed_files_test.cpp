@@ -142,11 +142,54 @@ TEST(Catalog, CitesTheLineOfTheKey) {
   ASSERT_FALSE(catalog.has_value());
   const std::string line = catalog.error().to_line();
   for (const char* part :
-       {"line 6: files: sha256 of sub/tiny.clf", "line 15: calibration.wheels.trak_m: unknown key",
+       {"line 6: files: sha256 of sub/tiny.clf",
+        "line 15: unknown key calibration.wheels.trak_m; expected one of track_m left_m_per_tick",
         "line 16: calibration.imu.rate_hz = -1", "line 18: title: missing"}) {
     EXPECT_NE(line.find(part), std::string::npos) << part << " in " << line;
   }
   EXPECT_EQ(line.find(path.string()), line.rfind(path.string())) << "once is enough: " << line;
+}
+
+TEST(Catalog, SaysOfACalibrationWhatLogRobotTomlIsTold) {
+  const ScratchFolder folder;
+  const auto path =
+      folder.write("catalog.toml", entry_text("[dataset.calibration.wheels]\n"          // 14
+                                              "track_m = \"0.33\"\n"                    // 15
+                                              "[dataset.calibration.lidar]\n"           // 16
+                                              "range_max_m = inf\n"                     // 17
+                                              "[dataset.calibration.laser]\n"           // 18
+                                              "x_m = 1\n"                               // 19
+                                              "[dataset.calibration.imu]\n"             // 20
+                                              "x_m = 1\n"                               // 21
+                                              "rate = \"; ; line 1: rate: as text\"\n"  // 22
+                                              ));
+  const auto catalog = read_catalog(path);
+  ASSERT_FALSE(catalog.has_value());
+  EXPECT_EQ(catalog.error().to_line(),
+            path.string() +
+                ": line 15: calibration.wheels.track_m is a text; expected number; "
+                "line 17: calibration.lidar.range_max_m is not finite; expected a number; "
+                "line 22: unknown key calibration.imu.rate; expected one of x_m y_m yaw_deg "
+                "rate_hz gyro_noise_radps accel_noise_mps2 gyro_bias_walk_radps_sqrt_s "
+                "accel_bias_walk_mps2_sqrt_s; "
+                "line 18: unknown key calibration.laser; expected one of robot wheels lidar imu "
+                "raw");
+}
+
+TEST(Catalog, ACalibrationOfEmptyTablesStatesNothing) {
+  const ScratchFolder folder;
+  for (const char* text : {"calibration = {}\n", "calibration = { wheels = {}, lidar = {} }\n"}) {
+    const auto path = folder.write("catalog.toml", entry_text(text));
+    const auto catalog = read_catalog(path);
+    ASSERT_FALSE(catalog.has_value()) << text;
+    EXPECT_EQ(catalog.error().to_line(),
+              path.string() + ": line 14: calibration: not a table, or one that states nothing");
+  }
+}
+
+TEST(Catalog, KnowsWhichValuesOfACalibrationAreStated) {
+  const TinyData data;
+  EXPECT_EQ(data.catalog().entries.front().robot_keys, formats::RobotKeys{"wheels.track_m"});
 }
 
 // A folder of somebody's own: the tiny log, and a catalogue that knows it.

@@ -134,8 +134,8 @@ TEST(FormatDefects, NumbersAreReadAndWrittenTheSameUnderALocaleWithADecimalComma
   const DecimalComma comma;
   const auto abroad = robot_from_toml(toml, "whole.toml");
   ASSERT_TRUE(abroad.has_value()) << abroad.error().to_line();
-  EXPECT_EQ(robot_to_toml(*abroad), robot_to_toml(*robot));
-  EXPECT_EQ(abroad->lidar.range_sigma_m, 0.015);
+  EXPECT_EQ(robot_to_toml(abroad->robot), robot_to_toml(robot->robot));
+  EXPECT_EQ(abroad->robot.lidar.range_sigma_m, 0.015);
   ASSERT_TRUE(write_log(log, folder / "abroad.clf"));
   EXPECT_EQ(read_text(folder / "abroad.clf"), read_text(folder / "plain.clf"));
   const auto read = read_log(folder / "abroad.clf");

@@ -162,23 +162,23 @@ TEST(GoldenTexts, RosMapNegated) {
 TEST(GoldenTexts, RobotToml) {
   const auto robot = robot_from_toml(read_text(golden_file("robot_toml/whole.toml")), "whole.toml");
   ASSERT_TRUE(robot.has_value()) << robot.error().to_line();
-  EXPECT_EQ(robot->name, "seed \"1\"");
-  EXPECT_EQ(robot->wheels.track_m, 0.35);
-  EXPECT_EQ(robot->wheels.left_m_per_tick, 1e-4);
-  EXPECT_EQ(robot->wheels.right_m_per_tick, 1e-4);
-  EXPECT_EQ(robot->wheels.sigma_m_per_sqrt_m, 0.01);
-  EXPECT_EQ(robot->lidar.T_base_lidar, Pose2(0.1, 0, kPi));
-  EXPECT_EQ(robot->lidar.range_min_m, 0.05);
-  EXPECT_EQ(robot->lidar.range_max_m, 4.5);
-  EXPECT_EQ(robot->lidar.range_sigma_m, 0.015);
-  EXPECT_EQ(robot->lidar.scan_duration_s, -0.1);
-  EXPECT_EQ(robot->lidar.time_offset_s, 0.02);
-  EXPECT_LT(robot->imu.T_base_imu.minus(Pose2(0, -0.1, -90.5 * kPi / 180)).norm(), 1e-15);
-  EXPECT_EQ(robot->imu.rate_hz, 100);
-  EXPECT_EQ(robot->imu.gyro_noise_radps, 0.01);
-  EXPECT_EQ(robot->imu.accel_noise_mps2, 0.05);
-  EXPECT_EQ(robot->imu.gyro_bias_walk_radps_sqrt_s, 1e-4);
-  EXPECT_EQ(robot->imu.accel_bias_walk_mps2_sqrt_s, 1e-3);
+  EXPECT_EQ(robot->robot.name, "seed \"1\"");
+  EXPECT_EQ(robot->robot.wheels.track_m, 0.35);
+  EXPECT_EQ(robot->robot.wheels.left_m_per_tick, 1e-4);
+  EXPECT_EQ(robot->robot.wheels.right_m_per_tick, 1e-4);
+  EXPECT_EQ(robot->robot.wheels.sigma_m_per_sqrt_m, 0.01);
+  EXPECT_EQ(robot->robot.lidar.T_base_lidar, Pose2(0.1, 0, kPi));
+  EXPECT_EQ(robot->robot.lidar.range_min_m, 0.05);
+  EXPECT_EQ(robot->robot.lidar.range_max_m, 4.5);
+  EXPECT_EQ(robot->robot.lidar.range_sigma_m, 0.015);
+  EXPECT_EQ(robot->robot.lidar.scan_duration_s, -0.1);
+  EXPECT_EQ(robot->robot.lidar.time_offset_s, 0.02);
+  EXPECT_LT(robot->robot.imu.T_base_imu.minus(Pose2(0, -0.1, -90.5 * kPi / 180)).norm(), 1e-15);
+  EXPECT_EQ(robot->robot.imu.rate_hz, 100);
+  EXPECT_EQ(robot->robot.imu.gyro_noise_radps, 0.01);
+  EXPECT_EQ(robot->robot.imu.accel_noise_mps2, 0.05);
+  EXPECT_EQ(robot->robot.imu.gyro_bias_walk_radps_sqrt_s, 1e-4);
+  EXPECT_EQ(robot->robot.imu.accel_bias_walk_mps2_sqrt_s, 1e-3);
 }
 
 }  // namespace

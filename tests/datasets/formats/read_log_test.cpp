@@ -5,7 +5,9 @@
 #include <limits>
 #include <sstream>
 
+#include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/log_io.hpp"
+#include "datasets/formats/rawlog/rawlog.hpp"
 #include "datasets/formats/trajectories/tum.hpp"
 #include "tests/datasets/formats/formats_support.hpp"
 #include "tests/datasets/formats/golden_support.hpp"
@@ -249,8 +251,26 @@ TEST(ReadLog, ASidecarOverridesTheLogKeyByKeyAndSaysSo) {
     EXPECT_EQ(scan->is_valid.back(), 0);  // 1.875 m and more
   }
   write_text(folder / "a.robot.toml", "[wheels]\ntrak_m = 0.5\n");
-  EXPECT_NE(read_log(folder / "a.rawlog").error().to_line().find("wheels.trak_m: unknown key"),
+  EXPECT_NE(read_log(folder / "a.rawlog")
+                .error()
+                .to_line()
+                .find("a.robot.toml:2: unknown key wheels.trak_m; expected one of track_m"),
             std::string::npos);
+}
+
+TEST(ReadLog, ARawlogsOwnModelThatIsWrongIsRefusedWithTheLineOfItsComment) {
+  const ScratchFolder folder;
+  std::string bytes = *rawlog_bytes(small_log());
+  bytes.replace(bytes.find("track_m"), 7, "track_M");
+  ASSERT_TRUE(write_file_atomically(folder / "a.rawlog", bytes));
+  const auto read = read_log(folder / "a.rawlog");
+  ASSERT_FALSE(read.has_value());
+  const std::string where =
+      (folder / "a.rawlog").string() + ": robot model in the leading comment:";
+  EXPECT_EQ(read.error().to_line(),
+            where + "4: wheels.track_m is missing; expected number; " + where +
+                "5: unknown key wheels.track_M; expected one of track_m left_m_per_tick "
+                "right_m_per_tick sigma_m_per_sqrt_m");
 }
 
 TEST(ReadLog, TheCallersModelFillsInForLogsThatCarryNone) {

@@ -79,10 +79,12 @@ TEST(ReadScenario, NamesEveryProblemWithItsLine) {
                                  "is_return_trip = \"yes\"\n");  // 9: type
   const std::string error = error_of(read_scenario(path));
   EXPECT_TRUE(contains(error, "bad.toml:3: lidar.range_max_m = -1: expected")) << error;
-  EXPECT_TRUE(contains(error, "bad.toml:4: lidar.num_beams has another type; expected integer"));
+  EXPECT_TRUE(
+      contains(error, "bad.toml:4: lidar.num_beams is a floating-point number; expected integer"));
   EXPECT_TRUE(contains(error, "bad.toml:5: unknown key lidar.range;")) << error;
   EXPECT_TRUE(contains(error, "bad.toml:6: unknown key wheel;")) << error;
-  EXPECT_TRUE(contains(error, "bad.toml:9: drive.is_return_trip has another type")) << error;
+  EXPECT_TRUE(contains(error, "bad.toml:9: drive.is_return_trip is a text; expected true or false"))
+      << error;
 }
 
 TEST(ReadScenario, RefusesWhatIsNoTomlWithItsLine) {

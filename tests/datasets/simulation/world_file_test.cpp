@@ -126,7 +126,9 @@ TEST(DrawnWorld, NamesEveryProblemWithItsLine) {
       "lamps = 3\n");                                               // 10
   EXPECT_TRUE(contains(error, "w.toml:3: world.polygons: expected at least two")) << error;
   EXPECT_TRUE(contains(error, "w.toml:4: world.polygons.points_m: expected a point")) << error;
-  EXPECT_TRUE(contains(error, "w.toml:5: world.polygons.closed has another type")) << error;
+  EXPECT_TRUE(
+      contains(error, "w.toml:5: world.polygons.closed is a whole number; expected true or false"))
+      << error;
   EXPECT_TRUE(contains(error, "w.toml:6: unknown key world.polygons.colour")) << error;
   EXPECT_TRUE(contains(error, "w.toml:7: material \"brick\" is not in")) << error;
   EXPECT_TRUE(contains(error, "w.toml:9: world.arcs.centre_m is missing")) << error;
