@@ -44,11 +44,11 @@ class BackEnd {
   [[nodiscard]] virtual std::string_view name() const = 0;
   // Adds, removes, then improves the estimate. Every key of a new factor must be in `new_values` or
   // known already. A pose graph needs at least one prior.
-  virtual BackEndReport update(std::vector<graph::FactorPtr> new_factors,
+  virtual BackEndReport update(std::vector<graph::NewFactor> new_factors,
                                const graph::Values& new_values,
                                std::span<const graph::FactorId> removed_factors) = 0;
   // Adds without solving: for systems that optimise seldom.
-  virtual std::vector<graph::FactorId> add(std::vector<graph::FactorPtr> new_factors,
+  virtual std::vector<graph::FactorId> add(std::vector<graph::NewFactor> new_factors,
                                            const graph::Values& new_values) = 0;
   // Solves again from the present estimate, until converged or the iteration limit.
   virtual BackEndReport solve() = 0;

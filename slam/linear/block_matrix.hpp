@@ -24,6 +24,12 @@ class BlockMatrix {
   // dimension(row variable) x dimension(column variable); valid until the next slot() or
   // add_variable().
   [[nodiscard]] Block block(std::size_t slot);
+  // The same with its size known beforehand.
+  template <int kRows, int kColumns>
+  [[nodiscard]] Eigen::Map<Eigen::Matrix<double, kRows, kColumns>> block(std::size_t slot) {
+    return Eigen::Map<Eigen::Matrix<double, kRows, kColumns>>(values_.data() +
+                                                              slots_[slot].offset);
+  }
 
   [[nodiscard]] int num_variables() const { return static_cast<int>(columns_.size()); }
   [[nodiscard]] int num_rows() const { return starts_.back(); }

@@ -1,7 +1,6 @@
 #include "datasets/formats/graphs/pose_graph.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -50,7 +49,7 @@ GraphProblem factor_graph_of(const PoseGraph& graph) {
     problem.values.set_pose(vertex.id, vertex.T_map_base);
   }
   for (const PoseGraph::Edge& edge : graph.edges) {
-    problem.factors.add(std::make_unique<graph::RelativePose>(
+    problem.factors.add(graph::RelativePose(
         graph::pose_key(edge.i), graph::pose_key(edge.j), edge.T_i_j,
         graph::square_root_information(edge.information), graph::RelativePoseError::kComponents));
   }

@@ -1,7 +1,6 @@
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
 
 #include <cmath>
-#include <map>
 
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 #include "slam/core/expect.hpp"
@@ -11,7 +10,7 @@ namespace corridor::backend {
 namespace {
 
 using graph::FactorId;
-using graph::FactorPtr;
+using graph::NewFactor;
 using graph::Key;
 using graph::Values;
 
@@ -23,22 +22,22 @@ class LeastSquares final : public BackEnd {
     return params_.use_damping ? "levenberg" : "gauss-newton";
   }
 
-  std::vector<FactorId> add(std::vector<FactorPtr> new_factors, const Values& new_values) override {
+  std::vector<FactorId> add(std::vector<NewFactor> new_factors, const Values& new_values) override {
     for (const Key key : new_values.keys()) {
       if (!equations_.contains(key)) equations_.add_variable(key);
     }
     values_.merge(new_values);
     std::vector<FactorId> ids;
-    for (FactorPtr& factor : new_factors) {
-      for (const Key key : factor->keys()) CORRIDOR_EXPECT(values_.contains(key));
+    for (NewFactor& factor : new_factors) {
+      for (const Key key : graph::keys_of(factor.factor)) CORRIDOR_EXPECT(values_.contains(key));
       const FactorId id = graph_.add(std::move(factor));
-      equations_.add_factor(id, graph_.factor(id));
+      equations_.add_factor(id, graph_);
       ids.push_back(id);
     }
     return ids;
   }
 
-  BackEndReport update(std::vector<FactorPtr> new_factors, const Values& new_values,
+  BackEndReport update(std::vector<NewFactor> new_factors, const Values& new_values,
                        std::span<const FactorId> removed_factors) override {
     for (const FactorId id : removed_factors) graph_.remove(id);
     std::vector<FactorId> ids = add(std::move(new_factors), new_values);
@@ -96,7 +95,7 @@ class LeastSquares final : public BackEnd {
   void apply(const Eigen::VectorXd& delta) {
     int row = 0;
     for (const Key key : equations_.variables()) {
-      values_.retract(key, delta.segment(row, key.dimension()));
+      values_.retract(key, delta.data() + row);
       row += key.dimension();
     }
   }
@@ -134,7 +133,7 @@ class LeastSquares final : public BackEnd {
     const Values before = values_;
     apply(delta);
     report.num_relinearized += report.num_variables;
-    const double chi2 = graph_.chi2(values_);
+    const double chi2 = graph_.cost(values_);
     const bool is_short = delta.squaredNorm() < params_.min_squared_step;
     // Damped steps are judged by chi2; plain ones always stand.
     if (std::isfinite(chi2) && (!params_.use_damping || chi2 < report.chi2)) {

@@ -1,78 +1,90 @@
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-
-#include "slam/core/expect.hpp"
+#include <span>
+#include <utility>
 
 namespace corridor::backend {
 namespace {
 
-constexpr int kMaxRows = 16;
-constexpr int kMaxColumns = 24;
-using Residual = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxRows, 1>;
-using Jacobian =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxRows, kMaxColumns>;
+// Calls visit with every number 0 ... kCount - 1 as a constant.
+template <std::size_t kCount, class Visit>
+void for_each_index(const Visit& visit) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (visit(std::integral_constant<std::size_t, k>()), ...);
+  }(std::make_index_sequence<kCount>());
+}
 
 }  // namespace
 
 void NormalEquations::add_variable(graph::Key key) {
-  CORRIDOR_EXPECT(!contains(key));
-  index_of_[key] = blocks_.add_variable(key.dimension());
-  variables_.push_back(key);
+  index_.add(key);
+  blocks_.add_variable(key.dimension());
 }
 
-void NormalEquations::add_factor(graph::FactorId id, const graph::Factor& factor) {
-  CORRIDOR_EXPECT(factor.dimension() <= kMaxRows && factor.num_columns() <= kMaxColumns);
-  FactorPlan plan;
-  std::vector<int> indices, offsets;
-  int offset = 0;
-  for (const graph::Key key : factor.keys()) {
-    indices.push_back(index_of_.at(key));
-    offsets.push_back(offset);
-    plan.first_rows.push_back(blocks_.starts()[static_cast<std::size_t>(indices.back())]);
-    offset += key.dimension();
+void NormalEquations::add_factor(graph::FactorId id, const graph::FactorGraph& graph) {
+  if (first_target_.size() <= id) {
+    first_target_.resize(id + 1);
+    first_row_.resize(id + 1);
   }
-  const auto keys = factor.keys();
+  first_target_[id] = targets_.size();
+  first_row_[id] = rows_.size();
+  const std::span<const graph::Key> keys = graph.keys(id);
   for (std::size_t a = 0; a < keys.size(); ++a) {
-    for (std::size_t b = 0; b < keys.size(); ++b) {
-      if (indices[a] < indices[b]) continue;
-      plan.targets.push_back({blocks_.slot(indices[a], indices[b]), offsets[a], keys[a].dimension(),
-                              offsets[b], keys[b].dimension()});
+    const int row = index_.of(keys[a]);
+    rows_.push_back(blocks_.starts()[static_cast<std::size_t>(row)]);
+    for (std::size_t b = 0; b <= a; ++b) {
+      const int column = index_.of(keys[b]);
+      targets_.push_back(
+          {blocks_.slot(std::max(row, column), std::min(row, column)), row < column});
     }
   }
-  if (plans_.size() <= id) plans_.resize(id + 1);
-  plans_[id] = std::move(plan);
+}
+
+template <class F>
+void NormalEquations::add_terms(graph::FactorId id, const graph::Residual<F>& r,
+                                const graph::Jacobian<F>& J) {
+  const Target* target = &targets_[first_target_[id]];
+  const int* row = &rows_[first_row_[id]];
+  for_each_index<graph::kNumKeys<F>>([&](auto a) {
+    constexpr int kRowsOfA = graph::dimension_of(F::kKinds[a]);
+    const auto J_a = J.template middleCols<kRowsOfA>(graph::first_column<F>(a));
+    gradient_.segment<kRowsOfA>(row[a]).noalias() += J_a.transpose() * r;
+    for_each_index<a + 1>([&](auto b) {
+      constexpr int kRowsOfB = graph::dimension_of(F::kKinds[b]);
+      const auto J_b = J.template middleCols<kRowsOfB>(graph::first_column<F>(b));
+      if (target->is_transposed) {
+        blocks_.block<kRowsOfB, kRowsOfA>(target->slot).noalias() += J_b.transpose() * J_a;
+      } else {
+        blocks_.block<kRowsOfA, kRowsOfB>(target->slot).noalias() += J_a.transpose() * J_b;
+      }
+      ++target;
+    });
+  });
 }
 
 double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::Values& values) {
   blocks_.set_zero();
   gradient_.setZero(blocks_.num_rows());
-  double chi2 = 0;
-  Residual r;
-  Jacobian J;
-  for (graph::FactorId id = 0; id < graph.slots().size(); ++id) {
-    if (!graph.contains(id)) continue;
-    const graph::Factor& factor = graph.factor(id);
-    r.resize(factor.dimension());
-    J.resize(factor.dimension(), factor.num_columns());
+  double cost = 0;
+  graph.for_each([&]<class F>(graph::FactorId id, const F& factor,
+                              const graph::RobustKernel& kernel) {
+    graph::Residual<F> r;
+    graph::Jacobian<F> J;
     factor.linearize(values, r, J);
-    if (!r.allFinite() || !J.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-    chi2 += r.squaredNorm();
-    const FactorPlan& plan = plans_[id];
-    int column = 0;
-    for (std::size_t k = 0; k < plan.first_rows.size(); ++k) {
-      const int dimension = factor.keys()[k].dimension();
-      gradient_.segment(plan.first_rows[k], dimension).noalias() +=
-          J.middleCols(column, dimension).transpose() * r;
-      column += dimension;
+    const double s = r.squaredNorm();
+    cost += kernel.cost(s);
+    if (kernel.kind != graph::KernelKind::kNone) {
+      const double root = std::sqrt(kernel.weight(s));
+      r *= root;
+      J *= root;
     }
-    for (const BlockTarget& t : plan.targets) {
-      blocks_.block(t.slot) += (J.middleCols(t.row_offset, t.num_rows).transpose())
-                                   .lazyProduct(J.middleCols(t.column_offset, t.num_columns));
-    }
-  }
-  return chi2;
+    add_terms<F>(id, r, J);
+  });
+  // What is not finite in a Jacobian is not in the gradient either.
+  return gradient_.allFinite() ? cost : std::numeric_limits<double>::quiet_NaN();
 }
 
 const Eigen::SparseMatrix<double>& NormalEquations::lower_hessian() {
@@ -81,13 +93,13 @@ const Eigen::SparseMatrix<double>& NormalEquations::lower_hessian() {
 }
 
 int NormalEquations::first_row(graph::Key key) const {
-  return blocks_.starts()[static_cast<std::size_t>(index_of_.at(key))];
+  return blocks_.starts()[static_cast<std::size_t>(index_.of(key))];
 }
 
 graph::Key NormalEquations::variable_of_row(int row) const {
   const auto& starts = blocks_.starts();
   const auto next = std::upper_bound(starts.begin(), starts.end(), row);
-  return variables_[static_cast<std::size_t>(next - starts.begin()) - 1];
+  return variables()[static_cast<std::size_t>(next - starts.begin()) - 1];
 }
 
 }  // namespace corridor::backend

@@ -13,25 +13,25 @@
 namespace corridor::backend {
 namespace {
 
-using graph::FactorPtr;
+using graph::NewFactor;
 using graph::pose_key;
 
 // Both solvers stop at a relative decrease of 1e-12 in these tests.
 constexpr double kSameOptimum = 1e-6;
 
 struct PoseGraph {
-  std::vector<std::vector<FactorPtr>> steps;  // factors that arrive with each pose
+  std::vector<std::vector<NewFactor>> steps;  // factors that arrive with each pose
   graph::Values initial;
 };
 
-FactorPtr edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
+NewFactor edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
   const Eigen::Vector3d weight(10, 10, 30);
-  return std::make_unique<graph::RelativePose>(pose_key(i), pose_key(j), T_i_j,
+  return graph::RelativePose(pose_key(i), pose_key(j), T_i_j,
                                                weight.asDiagonal().toDenseMatrix());
 }
 
-FactorPtr prior(std::uint32_t i, const Pose2& T_map_base = {}) {
-  return std::make_unique<graph::PosePrior>(pose_key(i), T_map_base,
+NewFactor prior(std::uint32_t i, const Pose2& T_map_base = {}) {
+  return graph::PosePrior(pose_key(i), T_map_base,
                                             1e3 * Eigen::Matrix3d::Identity());
 }
 
@@ -47,7 +47,7 @@ PoseGraph ring(std::uint64_t seed) {
   PoseGraph problem;
   Pose2 dead_reckoning;
   for (std::uint32_t i = 0; i < 2 * kRound; ++i) {
-    std::vector<FactorPtr> factors;
+    std::vector<NewFactor> factors;
     if (i == 0) {
       factors.push_back(prior(0));
     } else {
@@ -122,9 +122,9 @@ TEST(LeastSquares, GradientVanishesAtTheOptimum) {
   NormalEquations equations;
   for (const graph::Key key : optimum.keys()) equations.add_variable(key);
   for (auto& factors : problem.steps) {
-    for (FactorPtr& factor : factors) {
+    for (NewFactor& factor : factors) {
       const graph::FactorId id = graph.add(std::move(factor));
-      equations.add_factor(id, graph.factor(id));
+      equations.add_factor(id, graph);
     }
   }
   equations.linearize(graph, optimum);
@@ -138,8 +138,8 @@ TEST(LeastSquares, MarginalCovarianceIsTheBlockOfTheInverseHessian) {
   for (const graph::Key key : problem.initial.keys()) equations.add_variable(key);
   for (auto& factors : problem.steps) (void)solver->add(std::move(factors), problem.initial);
   solver->solve();
-  for (graph::FactorId id = 0; id < solver->graph().slots().size(); ++id) {
-    equations.add_factor(id, solver->graph().factor(id));
+  for (graph::FactorId id = 0; id < solver->graph().end_id(); ++id) {
+    equations.add_factor(id, solver->graph());
   }
   equations.linearize(solver->graph(), solver->estimate());
   const Eigen::MatrixXd hessian =
@@ -156,7 +156,7 @@ TEST(LeastSquares, WithoutAPriorThePosesAreUndeterminedAndStayAsTheyWere) {
   graph::Values values;
   values.set_pose(0, {});
   values.set_pose(1, {2, 0, 0});
-  std::vector<FactorPtr> factors;
+  std::vector<NewFactor> factors;
   factors.push_back(edge(0, 1, {1, 0, 0}));
   EXPECT_EQ(solver->update(std::move(factors), values, {}).status, SolveStatus::kRankDeficient);
   EXPECT_EQ(solver->estimate().pose(1), Pose2(2, 0, 0));
@@ -168,7 +168,7 @@ TEST(LeastSquares, ARemovedFactorNoLongerPulls) {
   graph::Values values;
   values.set_pose(0, {});
   values.set_pose(1, {1, 0, 0});
-  std::vector<FactorPtr> factors;
+  std::vector<NewFactor> factors;
   factors.push_back(prior(0));
   factors.push_back(edge(0, 1, {1, 0, 0}));
   factors.push_back(edge(0, 1, {3, 0, 0}));

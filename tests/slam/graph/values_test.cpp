@@ -1,6 +1,9 @@
 #include "slam/graph/values.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "slam/core/rng.hpp"
 
 namespace corridor::graph {
 namespace {
@@ -35,17 +38,30 @@ TEST(Values, SettingAgainReplaces) {
 TEST(Values, RetractMovesAPoseInItsOwnFrame) {
   Values values;
   values.set_pose(0, {1, 1, 1.5707963267948966});
-  values.retract(pose_key(0), Eigen::Vector3d(1, 0, 0));
+  const Eigen::Vector3d delta(1, 0, 0);
+  values.retract(pose_key(0), delta.data());
   EXPECT_NEAR(values.pose(0).x_m(), 1, 1e-12);
   EXPECT_NEAR(values.pose(0).y_m(), 2, 1e-12);
+}
+
+RC_GTEST_PROP(Values, AnOrientedPoseTurnsAsItsPose, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const OrientedPose pose(Pose2(rng.normal(), rng.normal(), rng.uniform(-3, 3)));
+  const Eigen::Vector2d v(rng.normal(), rng.normal());
+  const Pose2::Tangent tau(rng.normal(), rng.normal(), rng.normal());
+  RC_ASSERT((pose.turn(v) - pose.pose.rotation() * v).norm() < 1e-14 * (1 + v.norm()));
+  RC_ASSERT((pose.turn_back(pose.turn(v)) - v).norm() < 1e-14 * (1 + v.norm()));
+  RC_ASSERT(pose.plus(tau).pose.minus(pose.pose.plus(tau)).norm() < 1e-13 * (1 + tau.norm()));
 }
 
 TEST(Values, RetractAddsToVectors) {
   Values values;
   values.set_bias(0, {1, 2, 3});
   values.set_wheel_scale(0, 0.5);
-  values.retract(bias_key(0), Eigen::Vector3d(1, 1, 1));
-  values.retract(wheel_scale_key(0), Eigen::VectorXd::Constant(1, 0.25));
+  const Eigen::Vector3d ones(1, 1, 1);
+  values.retract(bias_key(0), ones.data());
+  const double quarter = 0.25;
+  values.retract(wheel_scale_key(0), &quarter);
   EXPECT_EQ(values.bias(0), Eigen::Vector3d(2, 3, 4));
   EXPECT_EQ(values.wheel_scale(0), 0.75);
 }
