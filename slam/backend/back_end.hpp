@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,11 +27,15 @@ std::string to_text(SolveStatus status);
 struct BackEndReport {
   SolveStatus status = SolveStatus::kEmpty;
   int num_iterations = 0;
-  double chi2_initial = 0;  // after adding, before solving
+  // Cost after adding, before solving, and at the end. Incremental updates do not evaluate it: then
+  // chi2 is what the linearised factors predict, chi2_initial not a number.
+  double chi2_initial = 0;
   double chi2 = 0;
   std::int64_t num_factors = 0;
   std::int64_t num_variables = 0;
   std::int64_t num_relinearized = 0;  // variables moved by this update, summed over iterations
+  std::int64_t num_eliminated = 0;    // variables eliminated anew, summed over iterations
+  std::optional<graph::Key> undetermined;  // with kRankDeficient: a variable that nothing holds
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
 };
 
@@ -56,6 +61,9 @@ class BackEnd {
   virtual void set_values(const graph::Values& values) = 0;
 
   [[nodiscard]] virtual const graph::Values& estimate() const = 0;
+  // One pose of the estimate, for those who read the newest after every update: where a back-end
+  // solves lazily, this costs no pass over all variables. Requires that the pose is known.
+  [[nodiscard]] virtual Pose2 pose(std::uint32_t index) { return estimate().pose(index); }
   [[nodiscard]] virtual const graph::FactorGraph& graph() const = 0;
   // Covariance of one variable in its tangent order.
   virtual Result<Eigen::MatrixXd> marginal_covariance(graph::Key key) = 0;

@@ -1,24 +1,12 @@
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
-#include <utility>
+
+#include "slam/backend/weighted_terms.hpp"
 
 namespace corridor::backend {
-namespace {
-
-// Calls visit with every number 0 ... kCount - 1 as a constant.
-template <std::size_t kCount, class Visit>
-void for_each_index(const Visit& visit) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) {
-    (visit(std::integral_constant<std::size_t, k>()), ...);
-  }(std::make_index_sequence<kCount>());
-}
-
-}  // namespace
-
 void NormalEquations::add_variable(graph::Key key) {
   index_.add(key);
   blocks_.add_variable(key.dimension());
@@ -50,11 +38,11 @@ void NormalEquations::add_terms(graph::FactorId id, const graph::Residual<F>& r,
   const int* row = &rows_[first_row_[id]];
   for_each_index<graph::kNumKeys<F>>([&](auto a) {
     constexpr int kRowsOfA = graph::dimension_of(F::kKinds[a]);
-    const auto J_a = J.template middleCols<kRowsOfA>(graph::first_column<F>(a));
+    const auto J_a = columns_of<F, a>(J);
     gradient_.segment<kRowsOfA>(row[a]).noalias() += J_a.transpose() * r;
     for_each_index<a + 1>([&](auto b) {
       constexpr int kRowsOfB = graph::dimension_of(F::kKinds[b]);
-      const auto J_b = J.template middleCols<kRowsOfB>(graph::first_column<F>(b));
+      const auto J_b = columns_of<F, b>(J);
       if (target->is_transposed) {
         blocks_.block<kRowsOfB, kRowsOfA>(target->slot).noalias() += J_b.transpose() * J_a;
       } else {
@@ -73,14 +61,7 @@ double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::
                               const graph::RobustKernel& kernel) {
     graph::Residual<F> r;
     graph::Jacobian<F> J;
-    factor.linearize(values, r, J);
-    const double s = r.squaredNorm();
-    cost += kernel.cost(s);
-    if (kernel.kind != graph::KernelKind::kNone) {
-      const double root = std::sqrt(kernel.weight(s));
-      r *= root;
-      J *= root;
-    }
+    cost += linearize_weighted(factor, kernel, values, r, J);
     add_terms<F>(id, r, J);
   });
   // What is not finite in a Jacobian is not in the gradient either.

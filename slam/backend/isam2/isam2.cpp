@@ -1,0 +1,309 @@
+#include "slam/backend/isam2/isam2.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "slam/backend/isam2/bayes_tree.hpp"
+#include "slam/backend/isam2/linear_terms.hpp"
+#include "slam/core/expect.hpp"
+#include "slam/graph/variable_index.hpp"
+
+namespace corridor::backend {
+namespace {
+
+using graph::FactorId;
+using graph::Key;
+using graph::NewFactor;
+using graph::Values;
+
+constexpr std::size_t size(int value) { return static_cast<std::size_t>(value); }
+
+class Isam2 final : public BackEnd {
+ public:
+  explicit Isam2(const Isam2Params& params)
+      : params_(params),
+        squared_threshold_{square(params.relinearize_pose), square(params.relinearize_velocity),
+                           square(params.relinearize_bias),
+                           square(params.relinearize_wheel_scale)} {}
+
+  std::string_view name() const override { return "isam2"; }
+
+  std::vector<FactorId> add(std::vector<NewFactor> new_factors, const Values& new_values) override {
+    for (const Key key : new_values.keys()) add_variable(key);
+    linearization_.merge(new_values);
+    std::vector<FactorId> ids;
+    for (NewFactor& factor : new_factors) ids.push_back(add_factor(std::move(factor)));
+    is_estimate_current_ = false;
+    return ids;
+  }
+
+  BackEndReport update(std::vector<NewFactor> new_factors, const Values& new_values,
+                       std::span<const FactorId> removed_factors) override {
+    for (const FactorId id : removed_factors) remove_factor(id);
+    BackEndReport report;
+    report.new_factor_ids = add(std::move(new_factors), new_values);
+    report.chi2_initial = std::numeric_limits<double>::quiet_NaN();
+    if (graph_.num_factors() == 0) return finished(report);
+    do {
+      relinearize(report);
+      if (!eliminate(report)) return finished(report);
+      tree_.solve_changed(params_.wildfire);
+      mark_far_steps();
+      ++report.num_iterations;
+    } while (report.num_iterations < params_.max_rounds &&
+             largest_step_ > square(params_.repeat_step));
+    report.status = marked_.empty() ? SolveStatus::kConverged : SolveStatus::kMaxIterations;
+    report.chi2 = tree_.chi2();
+    return finished(report);
+  }
+
+  BackEndReport solve() override {
+    BackEndReport report;
+    if (graph_.num_factors() == 0) return finished(report);
+    report.chi2 = report.chi2_initial = graph_.cost(estimate());
+    report.status = SolveStatus::kMaxIterations;
+    while (report.num_iterations < params_.max_iterations) {
+      for (const Key key : index_.keys()) mark(index_.of(key));
+      relinearize(report);
+      if (!eliminate(report)) break;
+      tree_.solve_all();
+      is_estimate_current_ = false;
+      ++report.num_iterations;
+      const double before = std::exchange(report.chi2, graph_.cost(estimate()));
+      if (!std::isfinite(report.chi2)) report.status = SolveStatus::kNotFinite;
+      if (std::abs(before - report.chi2) <= params_.min_relative_decrease * report.chi2) {
+        report.status = SolveStatus::kConverged;
+      }
+      if (report.status != SolveStatus::kMaxIterations) break;
+    }
+    return finished(report);
+  }
+
+  void set_values(const Values& values) override {
+    for (const Key key : values.keys()) {
+      const int variable = index_.of(key);
+      tree_.clear_delta(variable);
+      tree_.touch_everywhere(variable);
+      forget_information_around(variable);
+    }
+    linearization_.merge(values);
+    is_estimate_current_ = false;
+  }
+
+  const Values& estimate() const override {
+    if (!is_estimate_current_) {
+      tree_.solve_all();
+      estimate_ = linearization_;
+      for (const Key key : index_.keys()) estimate_.retract(key, tree_.delta(index_.of(key)));
+      is_estimate_current_ = true;
+    }
+    return estimate_;
+  }
+
+  Pose2 pose(std::uint32_t index) override {
+    const int variable = index_.of(graph::pose_key(index));
+    if (tree_.clique_of(variable) != BayesTree::kNone) tree_.solve_path(variable);
+    const double* const delta = tree_.delta(variable);
+    return linearization_.pose(index).plus({delta[0], delta[1], delta[2]});
+  }
+
+  const graph::FactorGraph& graph() const override { return graph_; }
+
+  Result<Eigen::MatrixXd> marginal_covariance(Key key) override {
+    if (!index_.contains(key)) {
+      return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key),
+                  "marginal covariance");
+    }
+    BackEndReport report;
+    if (!eliminate(report)) {
+      return fail(ErrorCode::kInvalid,
+                  "the normal equations are singular at " + graph::to_text(*report.undetermined),
+                  "marginal covariance", "a prior and factors that determine every variable");
+    }
+    return tree_.covariance(index_.of(key));
+  }
+
+ private:
+  static double square(double x) { return x * x; }
+
+  void add_variable(Key key) {
+    if (index_.contains(key)) {
+      // A new value for a known variable.
+      tree_.touch_everywhere(index_.of(key));
+      tree_.clear_delta(index_.of(key));
+      forget_information_around(index_.of(key));
+      return;
+    }
+    index_.add(key);
+    tree_.add_variable(key.dimension());
+    factors_of_.emplace_back();
+    information_.emplace_back();
+    is_marked_.push_back(false);
+  }
+
+  FactorId add_factor(NewFactor factor) {
+    variables_.clear();
+    for (const Key key : keys_of(factor.factor)) {
+      CORRIDOR_EXPECT(index_.contains(key));
+      variables_.push_back(index_.of(key));
+    }
+    const FactorId id = graph_.add(std::move(factor));
+    variables_of_.add(variables_);
+    is_collected_.push_back(false);
+    for (const int variable : variables_) {
+      factors_of_[size(variable)].push_back(id);
+      tree_.touch(variable);
+      information_[size(variable)].is_known = false;
+    }
+    return id;
+  }
+
+  void remove_factor(FactorId id) {
+    graph_.remove(id);
+    for (const int variable : variables_of_[id]) {
+      std::erase(factors_of_[size(variable)], id);
+      tree_.touch(variable);
+      information_[size(variable)].is_known = false;
+    }
+    is_estimate_current_ = false;
+  }
+
+  void mark(int variable) {
+    if (is_marked_[size(variable)]) return;
+    is_marked_[size(variable)] = true;
+    marked_.push_back(variable);
+  }
+
+  // Moves the linearisation point of every marked variable to its estimate.
+  void relinearize(BackEndReport& report) {
+    for (const int variable : marked_) {
+      is_marked_[size(variable)] = false;
+      linearization_.retract(index_.keys()[size(variable)], tree_.delta(variable));
+      tree_.clear_delta(variable);
+      tree_.touch_everywhere(variable);
+      forget_information_around(variable);
+    }
+    report.num_relinearized += static_cast<std::int64_t>(marked_.size());
+    marked_.clear();
+  }
+
+  void forget_information_around(int variable) {
+    for (const FactorId id : factors_of_[size(variable)]) {
+      for (const int other : variables_of_[id]) information_[size(other)].is_known = false;
+    }
+  }
+
+  // The factors whose variables are all eliminated anew: those that the cliques taken out held.
+  void collect_factors() {
+    collected_.clear();
+    sets_.clear();
+    for (const int variable : tree_.detached()) {
+      for (const FactorId id : factors_of_[size(variable)]) {
+        if (is_collected_[id]) continue;
+        const std::span<const int> variables = variables_of_[id];
+        const bool is_whole = std::all_of(variables.begin(), variables.end(), [&](int v) {
+          return tree_.clique_of(v) == BayesTree::kNone;
+        });
+        if (!is_whole) continue;
+        is_collected_[id] = true;
+        collected_.push_back(id);
+        sets_.add(variables);
+      }
+    }
+    for (const FactorId id : collected_) is_collected_[id] = false;
+  }
+
+  // False: rank deficient; the report says where.
+  bool eliminate(BackEndReport& report) {
+    tree_.detach();
+    const std::span<const int> detached = tree_.detached();
+    if (detached.empty()) return true;
+    report.num_eliminated += static_cast<std::int64_t>(detached.size());
+    collect_factors();
+    const std::size_t num_last = std::min(detached.size(), size(params_.num_last));
+    tree_.attach(sets_, detached.last(num_last));
+    for (int k = 0; k < tree_.num_new_cliques(); ++k) {
+      Front& front = tree_.open(k);
+      for (const int set : tree_.factors_of(k)) {
+        add_linearized(graph_, collected_[size(set)], linearization_, sets_[size(set)], tree_,
+                       front);
+      }
+      if (tree_.close()) continue;
+      report.status = SolveStatus::kRankDeficient;
+      report.undetermined = index_.keys()[size(tree_.first_bad_variable())];
+      return false;
+    }
+    return true;
+  }
+
+  // Marks the variables whose new step is too long for their linearisation.
+  void mark_far_steps() {
+    largest_step_ = 0;
+    for (const int variable : tree_.changed()) {
+      const double step = squared_step(variable);
+      largest_step_ = std::max(largest_step_, step);
+      const auto kind = static_cast<std::size_t>(index_.keys()[size(variable)].kind);
+      if (step > squared_threshold_[kind]) mark(variable);
+    }
+  }
+
+  // delta^T H_vv delta.
+  double squared_step(int variable) {
+    Information& known = information_[size(variable)];
+    const int dimension = tree_.dimension(variable);
+    if (!known.is_known) {
+      known.H.setZero();
+      for (const FactorId id : factors_of_[size(variable)]) {
+        add_information(graph_, id, linearization_, index_.keys()[size(variable)], known.H);
+      }
+      known.is_known = true;
+    }
+    const Eigen::Map<const Eigen::VectorXd> delta(tree_.delta(variable), dimension);
+    return delta.dot(known.H.topLeftCorner(dimension, dimension) * delta);
+  }
+
+  BackEndReport finished(BackEndReport& report) {
+    report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
+    report.num_variables = static_cast<std::int64_t>(index_.keys().size());
+    is_estimate_current_ = false;
+    return std::move(report);
+  }
+
+  struct Information {
+    Eigen::Matrix3d H;  // top left block of the variable's dimension
+    bool is_known = false;
+  };
+
+  Isam2Params params_;
+  std::array<double, graph::kNumVariableKinds> squared_threshold_;
+  graph::FactorGraph graph_;
+  Values linearization_;
+  graph::VariableIndex index_;
+  mutable BayesTree tree_;  // reading solves what no one has asked for yet
+  mutable Values estimate_;
+  mutable bool is_estimate_current_ = true;
+  // By variable.
+  std::vector<std::vector<FactorId>> factors_of_;
+  std::vector<Information> information_;
+  std::vector<bool> is_marked_;
+  std::vector<int> marked_;
+  double largest_step_ = 0;
+  // By factor.
+  VariableSets variables_of_;
+  std::vector<bool> is_collected_;
+  // Of the update under way.
+  std::vector<FactorId> collected_;
+  VariableSets sets_;
+  std::vector<int> variables_;
+};
+
+}  // namespace
+
+std::unique_ptr<BackEnd> make_isam2(const Isam2Params& params) {
+  return std::make_unique<Isam2>(params);
+}
+
+}  // namespace corridor::backend
