@@ -29,6 +29,7 @@ int BayesTree::add_variable(int dimension) {
   deltas_.resize(deltas_.size() + size(dimension), 0.0);
   clique_of_.push_back(kNone);
   rows_.push_back(kNone);
+  changed_in_.push_back(0);
   waiting_.push_back(variable);
   return variable;
 }

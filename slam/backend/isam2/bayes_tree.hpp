@@ -123,6 +123,7 @@ class BayesTree {
 
   // By variable.
   std::vector<int> dimensions_, first_rows_, clique_of_, rows_;
+  std::vector<int> changed_in_;  // number of the pass that last gave it another delta
   std::vector<double> deltas_;
   // By clique.
   std::vector<Clique> cliques_;
@@ -136,7 +137,7 @@ class BayesTree {
   EliminationOrder order_;
   std::vector<RowRun> runs_;
   std::vector<double> below_, z_;
-  int open_ = kNone, first_bad_variable_ = kNone;
+  int open_ = kNone, first_bad_variable_ = kNone, pass_ = 0;
 };
 
 }  // namespace corridor::backend

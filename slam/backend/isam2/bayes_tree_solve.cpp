@@ -48,18 +48,22 @@ void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
     std::copy_n(from, dimension(variable), deltas_.data() + first_rows_[size(variable)]);
     from += dimension(variable);
     changed_.push_back(variable);
+    changed_in_[size(variable)] = pass_;
   }
 }
 
 void BayesTree::solve_changed(double threshold) {
   changed_.clear();
+  ++pass_;
   open_stack_ = roots_;
   while (!open_stack_.empty()) {
     Clique& clique = at(open_stack_.back());
     open_stack_.pop_back();
+    const bool is_below_changed = std::ranges::any_of(
+        clique.separator(), [&](int v) { return changed_in_[size(v)] == pass_; });
     bool is_changed = false;
-    solve(clique, threshold, is_changed);
-    if (!is_changed && !clique.are_children_due) continue;
+    if (is_below_changed || !clique.is_solved || threshold < 0) solve(clique, threshold, is_changed);
+    if (!is_changed && !is_below_changed && !clique.are_children_due) continue;
     clique.are_children_due = false;
     for (int child = clique.first_child; child != kNone; child = at(child).next_sibling) {
       open_stack_.push_back(child);
@@ -75,6 +79,8 @@ void BayesTree::solve_path(int variable) {
   for (int number = clique_of(variable); number != kNone; number = at(number).parent) {
     open_stack_.push_back(number);
   }
+  // What changes here, the next pass sees as changed in it.
+  ++pass_;
   bool is_changed = false;
   while (!open_stack_.empty()) {
     Clique& clique = at(open_stack_.back());
@@ -82,6 +88,7 @@ void BayesTree::solve_path(int variable) {
     solve(clique, -1, is_changed);
     clique.are_children_due = true;
   }
+  --pass_;
 }
 
 // Of the clique's variables in their order, from that of its separator: [Kaess2009] section 3,
