@@ -75,11 +75,6 @@ double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::
   return chi2;
 }
 
-const Eigen::SparseMatrix<double>& NormalEquations::lower_hessian() {
-  blocks_.write_lower(lower_);
-  return lower_;
-}
-
 int NormalEquations::first_row(graph::Key key) const {
   return blocks_.starts()[static_cast<std::size_t>(index_of_.at(key))];
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -24,9 +23,8 @@ class NormalEquations {
   double linearize(const graph::FactorGraph& graph, const graph::Values& values);
 
   [[nodiscard]] const Eigen::VectorXd& gradient() const { return gradient_; }
-  // Scalar lower triangle of H of the last linearize().
-  [[nodiscard]] const Eigen::SparseMatrix<double>& lower_hessian();
-  [[nodiscard]] const std::vector<int>& block_starts() const { return blocks_.starts(); }
+  // H of the last linearize().
+  [[nodiscard]] const linear::BlockMatrix& hessian() const { return blocks_; }
   [[nodiscard]] const std::vector<graph::Key>& variables() const { return variables_; }
   [[nodiscard]] bool contains(graph::Key key) const { return index_of_.contains(key); }
   // First scalar row of a variable. Requires contains(key).
@@ -51,7 +49,6 @@ class NormalEquations {
   std::vector<graph::Key> variables_;
   std::vector<FactorPlan> plans_;  // by FactorId
   Eigen::VectorXd gradient_;
-  Eigen::SparseMatrix<double> lower_;
 };
 
 }  // namespace corridor::backend
