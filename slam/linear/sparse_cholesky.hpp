@@ -11,7 +11,7 @@
 
 namespace corridor::linear {
 
-// Pose graphs have columns too short for BLAS.
+// Pose graphs have columns too short for BLAS: linear/cholmod/factorize_* of bench/micro.
 enum class CholmodMethod {
   kSimplicial,  // column by column
   kSupernodal,  // dense blocks, through BLAS

@@ -1,4 +1,4 @@
-// Laws that every linear solver keeps.
+// Laws that every linear solver keeps: CHOLMOD's both methods and our own.
 #include "slam/linear/linear_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 #include <limits>
 #include <memory>
 
+#include "slam/linear/block_cholesky.hpp"
+#include "slam/linear/make_linear_solver.hpp"
 #include "slam/linear/sparse_cholesky.hpp"
 #include "tests/slam/linear/random_blocks.hpp"
 
@@ -24,6 +26,7 @@ Solvers all_solvers() {
   Solvers solvers;
   solvers.push_back(std::make_unique<SparseCholesky>(CholmodMethod::kSimplicial));
   solvers.push_back(std::make_unique<SparseCholesky>(CholmodMethod::kSupernodal));
+  solvers.push_back(std::make_unique<BlockCholesky>());
   return solvers;
 }
 
@@ -291,6 +294,24 @@ TEST(LinearSolver, CountsTheFactorOfADenseMatrix) {
     ASSERT_EQ(solver->factorize(matrix), CholeskyStatus::kOk);
     EXPECT_EQ(solver->num_factor_nonzeros(), 12 * 13 / 2);
     EXPECT_NEAR(solver->num_flops(), 12 * 12 * 12 / 3.0, 12 * 12);
+  }
+}
+
+RC_GTEST_PROP(LinearSolver, OnlyOurOwnFillsInZeros, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const BlockMatrix matrix = random_positive_matrix(rng);
+  const Solvers solvers = all_solvers();
+  for (const auto& solver : solvers) RC_ASSERT(solver->factorize(matrix) == CholeskyStatus::kOk);
+  RC_ASSERT(solvers[0]->num_factor_nonzeros() == solvers[1]->num_factor_nonzeros());
+  RC_ASSERT(solvers[2]->num_factor_nonzeros() >= solvers[0]->num_factor_nonzeros());
+}
+
+TEST(LinearSolver, IsMadeByKind) {
+  EXPECT_EQ(to_text(LinearSolverKind::kCholmod), "cholmod");
+  EXPECT_EQ(to_text(LinearSolverKind::kBlock), "block");
+  EXPECT_EQ(to_text(CholeskyStatus::kNotPositiveDefinite), "not_positive_definite");
+  for (const auto kind : {LinearSolverKind::kCholmod, LinearSolverKind::kBlock}) {
+    EXPECT_EQ(make_linear_solver(kind)->name(), to_text(kind));
   }
 }
 
