@@ -94,7 +94,7 @@ bool BlockCholesky::factorize_front(const Front& front, FactorDiagonal& diagonal
   const int num_good = factorize_panel(panel, front.stride, front.num_rows, front.num_pivots);
   const int* rows = layout_.row_order.data() + front.first_pivot;
   for (int k = 0; k < num_good; ++k) {
-    if (!diagonal.take(panel[k * (front.stride + 1)], rows[k])) return false;
+    if (!diagonal.take(1 / panel[k * (front.stride + 1)], rows[k])) return false;
   }
   return num_good == front.num_pivots || diagonal.take(0, rows[num_good]);
 }

@@ -39,7 +39,7 @@ class BlockCholesky final : public LinearSolver {
   void solve_upper();
 
   FrontLayout layout_;
-  std::vector<double> panels_;      // L
+  std::vector<double> panels_;      // L, its diagonal inverted
   std::vector<double> updates_;     // a stack
   std::vector<Waiting> waiting_;    // the updates in it, bottom first
   std::vector<double> solution_;    // in the order of elimination

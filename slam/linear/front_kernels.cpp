@@ -102,7 +102,7 @@ int factorize_corner(double* top, const double* left, std::ptrdiff_t stride, int
       square[w][r] *= inverse;
       top[w * stride + r] = corner[w * kMaxWidth + r] = square[w][r];
     }
-    corner[w * kMaxWidth + w] = inverse;
+    top[w * stride + w] = corner[w * kMaxWidth + w] = inverse;
   }
   return kWidth;
 }
@@ -113,7 +113,7 @@ template <int kWidth>
 void solve_columns(const double* top, std::ptrdiff_t stride, int num_rows, double* x) {
   for (int w = 0; w < kWidth; ++w) {
     for (int k = 0; k < w; ++k) x[w] -= top[k * stride + w] * x[k];
-    x[w] /= top[w * stride + w];
+    x[w] *= top[w * stride + w];
   }
   for (int row = kWidth; row < num_rows; row += kLanes) {
     Lanes sum = load(x + row);
@@ -133,7 +133,7 @@ void solve_transposed_columns(const double* top, std::ptrdiff_t stride, int num_
   for (int w = kWidth; w-- > 0;) {
     for (int lane = 0; lane < kLanes; ++lane) x[w] -= sums[w][lane];
     for (int k = w + 1; k < kWidth; ++k) x[w] -= top[w * stride + k] * x[k];
-    x[w] /= top[w * stride + w];
+    x[w] *= top[w * stride + w];
   }
 }
 

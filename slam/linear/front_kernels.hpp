@@ -1,8 +1,9 @@
 // Dense kernels of a multifrontal Cholesky factorisation [Duff1983]: fronts of a few to a few
 // hundred rows, for which a BLAS call costs more than the work. Portable vector code, one thread.
 //
-// A front's panel holds its columns of L, [L11; L21]: num_rows x num_pivots, column-major, the
-// columns front_stride() apart. Kernels read and write whole vectors, up to kFrontPadding numbers
+// A front's panel holds its columns of L, [L11; L21], with the diagonal inverted (substitution
+// would wait for the divisions): num_rows x num_pivots, column-major, the columns front_stride()
+// apart. Kernels read and write whole vectors, up to kFrontPadding numbers
 // beyond the last row: there panels hold zeros.
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "slam/linear/supernodes.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "slam/core/expect.hpp"
@@ -28,16 +29,18 @@ struct Candidate {
 };
 
 // Few wide fronts are faster than many narrow ones: a child joins its parent while the share of
-// zeros stays small; how small depends on the number of columns, as in CHOLMOD [Chen2008]. The
-// limits are those for which the benchmark linear/block/factorize was fastest.
+// zeros stays below a limit that depends on the number of pivots, as in CHOLMOD [Chen2008]. The
+// benchmark linear/block/factorize is fastest near these limits, and flat around them.
+struct JoinLimit {
+  double max_pivots, zero_ratio;
+};
+constexpr JoinLimit kJoinLimits[] = {
+    {9, 1}, {24, 0.3}, {72, 0.1}, {std::numeric_limits<double>::infinity(), 0.05}};
+
 bool is_worth_joining(const Candidate& joined) {
-  constexpr struct { double num_pivots, zero_ratio; } kLimits[] = {{12, 1}, {24, 0.3}, {72, 0.1}};
-  constexpr double kWideZeroRatio = 0.05;
-  const double zero_ratio = joined.num_zeros / joined.num_entries();
-  for (const auto& limit : kLimits) {
-    if (joined.num_pivots <= limit.num_pivots) return zero_ratio < limit.zero_ratio;
-  }
-  return zero_ratio < kWideZeroRatio;
+  const JoinLimit* limit = kJoinLimits;
+  while (joined.num_pivots > limit->max_pivots) ++limit;
+  return joined.num_zeros < limit->zero_ratio * joined.num_entries();
 }
 
 class SupernodeBuilder {

@@ -49,6 +49,7 @@ TEST(FrontKernels, APanelBecomesTheFirstColumnsOfTheDenseFactor) {
     const int num_rows = static_cast<int>(front.rows());
     Panel panel = panel_of(front, num_pivots);
     ASSERT_EQ(factorize(panel, num_rows), num_pivots);
+    panel.diagonal() = panel.diagonal().cwiseInverse().eval();
     const Eigen::MatrixXd L = front.llt().matrixL();
     for (int c = 0; c < num_pivots; ++c) {
       const Eigen::VectorXd expected = L.col(c).tail(num_rows - c);
