@@ -62,15 +62,14 @@ PlacedBlocks place_blocks(const BlockMatrix& matrix, const std::vector<int>& pla
   return placed;
 }
 
+// Appends rows that follow the last ones here: to the run before, of those from `first` on, if
+// they follow it there too.
 void append_run(std::vector<RowRun>& runs, std::size_t first, const RowRun& run) {
-  if (runs.size() > first) {
-    RowRun& last = runs.back();
-    if (last.from + last.length == run.from && last.to + last.length == run.to) {
-      last.length += run.length;
-      return;
-    }
+  if (runs.size() > first && runs.back().to + runs.back().length == run.to) {
+    runs.back().length += run.length;
+  } else {
+    runs.push_back(run);
   }
-  runs.push_back(run);
 }
 
 class LayoutBuilder {

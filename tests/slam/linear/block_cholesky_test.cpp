@@ -50,6 +50,32 @@ TEST(BlockCholesky, AStepWithAnUnchangedPatternAllocatesNothing) {
   }
 }
 
+// At whichever variable they end: what waited for its parent then is forgotten.
+TEST(BlockCholesky, FailedFactorisationsLeaveNothingBehind) {
+  if (!kCountsAllocations) GTEST_SKIP() << "allocations cannot be counted under AddressSanitizer";
+  constexpr int kWidth = 8, kNumVariables = kWidth * kWidth;
+  std::vector<Pair> pairs;
+  BlockMatrix matrix;
+  for (int v = 0; v < kNumVariables; ++v) {
+    matrix.add_variable(3);
+    if (v % kWidth > 0) pairs.emplace_back(v, v - 1);
+    if (v >= kWidth) pairs.emplace_back(v, v - kWidth);
+  }
+  for (const auto& [i, j] : pairs) matrix.slot(i, j);
+  Rng rng(3);
+  fill_positive(rng, pairs, 1, matrix);
+  BlockCholesky solver;
+  ASSERT_EQ(solver.factorize(matrix), CholeskyStatus::kOk);
+  const int before = num_allocations;
+  for (int round = 0; round < 30 * kNumVariables; ++round) {
+    auto diagonal = matrix.block(matrix.slot(round % kNumVariables, round % kNumVariables));
+    diagonal *= -1;
+    ASSERT_EQ(solver.factorize(matrix), CholeskyStatus::kNotPositiveDefinite);
+    diagonal *= -1;
+  }
+  EXPECT_EQ(num_allocations, before);
+}
+
 TEST(BlockMatrix, AnUnchangedStructureIsClearedWithoutAllocation) {
   if (!kCountsAllocations) GTEST_SKIP() << "allocations cannot be counted under AddressSanitizer";
   Rng rng(3);

@@ -104,6 +104,7 @@ RC_GTEST_PROP(LinearSolver, ARepeatedFactorisationEqualsAFreshOneBitForBit, (std
     for (const auto& solver : solvers) {
       const auto expected = prior > 0 ? CholeskyStatus::kOk : CholeskyStatus::kNotPositiveDefinite;
       RC_ASSERT(solver->factorize(matrix) == expected);
+      RC_ASSERT((solver->first_bad_variable() == -1) == (prior > 0));
     }
   }
   const Eigen::VectorXd b = random_matrix(rng, matrix.num_rows(), 1);
@@ -157,6 +158,22 @@ TEST(LinearSolver, APatternOfTheSameSizeIsAnalysedAnew) {
       EXPECT_LT((to_dense(matrix) * solution_of(*solver, b) - b).norm(), kTight);
     }
     EXPECT_EQ(solver->num_analyses(), 2);
+  }
+}
+
+TEST(LinearSolver, TheSamePairsOfOtherDimensionsAreAnalysedAnew) {
+  for (const auto& solver : all_solvers()) {
+    for (const int dimension : {1, 3, 2}) {
+      BlockMatrix matrix;
+      for (int v = 0; v < 2; ++v) matrix.add_variable(dimension);
+      matrix.slot(1, 0);
+      Rng rng(1);
+      fill_positive(rng, {{1, 0}}, 1, matrix);
+      const Eigen::VectorXd b = Eigen::VectorXd::Ones(matrix.num_rows());
+      ASSERT_EQ(solver->factorize(matrix), CholeskyStatus::kOk);
+      EXPECT_LT((to_dense(matrix) * solution_of(*solver, b) - b).norm(), kTight);
+    }
+    EXPECT_EQ(solver->num_analyses(), 3);
   }
 }
 
