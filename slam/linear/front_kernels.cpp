@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace corridor::linear {
 namespace {
 
+// Numbers that the machine works on at a time.
 #if defined(__AVX512F__)
 constexpr int kLanes = 8;
 #else
@@ -65,20 +67,13 @@ void update_columns(double* c, std::ptrdiff_t c_stride, const double* a, const d
 // Calls `work` with the width as a constant.
 template <class Work>
 decltype(auto) with_width(int width, const Work& work) {
-  switch (width) {
-    case 1:
-      return work(std::integral_constant<int, 1>());
-    case 2:
-      return work(std::integral_constant<int, 2>());
-    case 3:
-      return work(std::integral_constant<int, 3>());
-    case 4:
-      return work(std::integral_constant<int, 4>());
-    case 5:
-      return work(std::integral_constant<int, 5>());
-    default:
-      return work(std::integral_constant<int, 6>());
-  }
+  static_assert(kMaxWidth == 6);
+  if (width == 1) return work(std::integral_constant<int, 1>());
+  if (width == 2) return work(std::integral_constant<int, 2>());
+  if (width == 3) return work(std::integral_constant<int, 3>());
+  if (width == 4) return work(std::integral_constant<int, 4>());
+  if (width == 5) return work(std::integral_constant<int, 5>());
+  return work(std::integral_constant<int, 6>());
 }
 
 // The square at the top of `kWidth` columns: takes off what the `depth` columns to its left (whose
@@ -86,7 +81,7 @@ decltype(auto) with_width(int width, const Work& work) {
 // Returns the number of good pivots.
 template <int kWidth>
 int factorize_corner(double* top, const double* left, std::ptrdiff_t stride, int depth,
-                     const double* min_pivots, double* corner) {
+                     double* corner) {
   double square[kWidth][kWidth];  // by columns
   for (int w = 0; w < kWidth; ++w) {
     for (int r = 0; r < kWidth; ++r) square[w][r] = top[w * stride + r];
@@ -101,21 +96,50 @@ int factorize_corner(double* top, const double* left, std::ptrdiff_t stride, int
     for (int k = 0; k < w; ++k) {
       for (int r = w; r < kWidth; ++r) square[w][r] -= square[k][r] * square[k][w];
     }
-    if (!(square[w][w] > min_pivots[w])) return w;
+    if (!(square[w][w] > 0)) return w;
     const double inverse = 1 / std::sqrt(square[w][w]);
     for (int r = w; r < kWidth; ++r) {
       square[w][r] *= inverse;
       top[w * stride + r] = corner[w * kMaxWidth + r] = square[w][r];
     }
-    corner[w * kMaxWidth + w] = inverse;
+    top[w * stride + w] = corner[w * kMaxWidth + w] = inverse;
   }
   return kWidth;
 }
 
+// x1 := L11^-1 x1 for the kWidth columns whose square begins at `top`, then takes them off what is
+// below.
+template <int kWidth>
+void solve_columns(const double* top, std::ptrdiff_t stride, int num_rows, double* x) {
+  for (int w = 0; w < kWidth; ++w) {
+    for (int k = 0; k < w; ++k) x[w] -= top[k * stride + w] * x[k];
+    x[w] *= top[w * stride + w];
+  }
+  for (int row = kWidth; row < num_rows; row += kLanes) {
+    Lanes sum = load(x + row);
+    for (int w = 0; w < kWidth; ++w) sum -= load(top + w * stride + row) * x[w];
+    store(x + row, sum);
+  }
+}
+
+// x1 := L11^-T (x1 - L21^T x2) for such columns.
+template <int kWidth>
+void solve_transposed_columns(const double* top, std::ptrdiff_t stride, int num_rows, double* x) {
+  Lanes sums[kWidth] = {};
+  for (int row = kWidth; row < num_rows; row += kLanes) {
+    const Lanes rows = load(x + row);
+    for (int w = 0; w < kWidth; ++w) sums[w] += load(top + w * stride + row) * rows;
+  }
+  for (int w = kWidth; w-- > 0;) {
+    for (int lane = 0; lane < kLanes; ++lane) x[w] -= sums[w][lane];
+    for (int k = w + 1; k < kWidth; ++k) x[w] -= top[w * stride + k] * x[k];
+    x[w] *= top[w * stride + w];
+  }
+}
+
 }  // namespace
 
-int factorize_panel(double* panel, std::ptrdiff_t stride, int num_rows, int num_pivots,
-                    const double* min_pivots) {
+int factorize_panel(double* panel, std::ptrdiff_t stride, int num_rows, int num_pivots) {
   double corner[kMaxWidth * kMaxWidth];
   for (int first = 0; first < num_pivots; first += kMaxWidth) {
     const int width = std::min(kMaxWidth, num_pivots - first);
@@ -123,8 +147,7 @@ int factorize_panel(double* panel, std::ptrdiff_t stride, int num_rows, int num_
       constexpr int kWidth = decltype(constant)::value;
       double* top = panel + first * stride + first;
       const double* left = panel + first;
-      const int good =
-          factorize_corner<kWidth>(top, left, stride, first, min_pivots + first, corner);
+      const int good = factorize_corner<kWidth>(top, left, stride, first, corner);
       if (good == kWidth) {
         update_columns<kWidth>(top + kWidth, stride, left + kWidth, left, stride,
                                num_rows - first - kWidth, first, corner);
@@ -145,6 +168,28 @@ void subtract_outer_product(const double* panel, std::ptrdiff_t stride, int num_
       update_columns<decltype(constant)::value>(update + first * update_stride + first,
                                                 update_stride, rows + first, rows + first, stride,
                                                 num_columns - first, num_pivots, nullptr);
+    });
+  }
+}
+
+void solve_panel(const double* panel, std::ptrdiff_t stride, int num_rows, int num_pivots,
+                 double* x) {
+  for (int first = 0; first < num_pivots; first += kMaxWidth) {
+    with_width(std::min(kMaxWidth, num_pivots - first), [&](auto constant) {
+      solve_columns<decltype(constant)::value>(panel + first * stride + first, stride,
+                                               num_rows - first, x + first);
+    });
+  }
+}
+
+void solve_transposed_panel(const double* panel, std::ptrdiff_t stride, int num_rows,
+                            int num_pivots, double* x) {
+  for (int end = num_pivots; end > 0;) {
+    const int width = std::min(kMaxWidth, end);
+    end -= width;
+    with_width(width, [&](auto constant) {
+      solve_transposed_columns<decltype(constant)::value>(panel + end * stride + end, stride,
+                                                          num_rows - end, x + end);
     });
   }
 }

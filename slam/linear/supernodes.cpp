@@ -1,104 +1,27 @@
 #include "slam/linear/supernodes.hpp"
 
-#include <amd.h>
-
 #include <algorithm>
-#include <numeric>
+#include <limits>
 #include <utility>
 
 #include "slam/core/expect.hpp"
+#include "slam/linear/elimination_tree.hpp"
 
 namespace corridor::linear {
 namespace {
 
-constexpr int kNone = -1;
-
-constexpr std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
-enum class Side { kLower, kHigher };
-
-// Of every place the places on that side of it that share a block with it.
-BlockPattern by_place(const BlockPattern& pattern, const std::vector<int>& place, Side side) {
-  const int n = pattern.num_variables();
-  const auto for_each_pair = [&](const auto& visit) {
-    for (int j = 0; j < n; ++j) {
-      for (const int i : pattern.of(j)) {
-        const auto [low, high] = std::minmax(place[size(j)], place[size(i)]);
-        if (side == Side::kLower) {
-          visit(high, low);
-        } else {
-          visit(low, high);
-        }
-      }
-    }
-  };
-  BlockPattern placed;
-  placed.starts.assign(size(n) + 1, 0);
-  placed.rows.resize(pattern.rows.size());
-  for_each_pair([&](int of, int) { ++placed.starts[size(of) + 1]; });
-  std::partial_sum(placed.starts.begin(), placed.starts.end(), placed.starts.begin());
-  std::vector<int> next(placed.starts.begin(), placed.starts.end() - 1);
-  for_each_pair([&](int of, int other) { placed.rows[size(next[size(of)]++)] = other; });
-  return placed;
-}
-
-// Parent of every place in the elimination tree [Liu1990]: ancestors are found with path
-// compression.
-std::vector<int> parents_of(const BlockPattern& lower) {
-  const int n = lower.num_variables();
-  std::vector<int> parents(size(n), kNone), ancestors(size(n), kNone);
-  for (int j = 0; j < n; ++j) {
-    for (int k : lower.of(j)) {
-      while (k != kNone && k < j) {
-        const int next = ancestors[size(k)];
-        ancestors[size(k)] = j;
-        if (next == kNone) parents[size(k)] = j;
-        k = next;
-      }
-    }
+std::vector<int> inverse_of(const std::vector<int>& permutation) {
+  std::vector<int> inverse(permutation.size());
+  for (std::size_t k = 0; k < permutation.size(); ++k) {
+    inverse[to_index(permutation[k])] = static_cast<int>(k);
   }
-  return parents;
-}
-
-// Children of every node as lists: the first of each, and the next of the same parent; ascending.
-// The roots are the children of one more node at the end.
-struct Children {
-  std::vector<int> first, next;
-
-  explicit Children(const std::vector<int>& parents)
-      : first(parents.size() + 1, kNone), next(parents.size(), kNone) {
-    for (std::size_t j = parents.size(); j-- > 0;) {
-      int& head = first[parents[j] == kNone ? parents.size() : size(parents[j])];
-      next[j] = head;
-      head = static_cast<int>(j);
-    }
-  }
-};
-
-// Places in postorder of the tree.
-std::vector<int> postorder_of(const std::vector<int>& parents) {
-  Children children(parents);
-  std::vector<int> order, open;
-  order.reserve(parents.size());
-  int node = static_cast<int>(parents.size());
-  for (;;) {
-    int& child = children.first[size(node)];
-    if (child != kNone) {
-      open.push_back(node);
-      node = std::exchange(child, children.next[size(child)]);
-      continue;
-    }
-    if (open.empty()) return order;
-    order.push_back(node);
-    node = open.back();
-    open.pop_back();
-  }
+  return inverse;
 }
 
 // A supernode under construction: its size in scalars, and how many of its entries are zeros that
 // joining columns of different rows has brought.
 struct Candidate {
-  Supernode node;
+  Supernode node;  // its parent is a candidate's number until the end
   int id = 0;
   double num_pivots = 0, num_rows = 0, num_zeros = 0;
 
@@ -106,27 +29,32 @@ struct Candidate {
 };
 
 // Few wide fronts are faster than many narrow ones: a child joins its parent while the share of
-// zeros stays small; how small depends on the number of columns, as in CHOLMOD [Chen2008].
+// zeros stays below a limit that depends on the number of pivots, as in CHOLMOD [Chen2008]. The
+// benchmark linear/block/factorize is fastest near these limits, and flat around them.
+struct JoinLimit {
+  double max_pivots, zero_ratio;
+};
+constexpr JoinLimit kJoinLimits[] = {
+    {9, 1}, {24, 0.3}, {72, 0.1}, {std::numeric_limits<double>::infinity(), 0.05}};
+
 bool is_worth_joining(const Candidate& joined) {
-  const double zero_ratio = joined.num_zeros / joined.num_entries();
-  if (joined.num_pivots <= 12) return true;
-  if (joined.num_pivots <= 24) return zero_ratio < 0.3;
-  if (joined.num_pivots <= 72) return zero_ratio < 0.1;
-  return zero_ratio < 0.05;
+  const JoinLimit* limit = kJoinLimits;
+  while (joined.num_pivots > limit->max_pivots) ++limit;
+  return joined.num_zeros < limit->zero_ratio * joined.num_entries();
 }
 
 class SupernodeBuilder {
  public:
-  SupernodeBuilder(const std::vector<int>& parents, const BlockPattern& higher,
+  SupernodeBuilder(const std::vector<int>& parents, const BlockPattern& behind,
                    const std::vector<int>& dimensions)
-      : parents_(parents), higher_(higher), dimensions_(dimensions) {}
+      : parents_(parents), behind_(behind), dimensions_(dimensions) {}
 
   std::vector<Supernode> build() {
     find_fundamental();
     for (Candidate& candidate : fundamental_) {
       while (!kept_.empty() && kept_.back().node.parent == candidate.id &&
              join(kept_.back(), candidate)) {
-        joined_[size(kept_.back().id)] = candidate.id;
+        joined_[to_index(kept_.back().id)] = candidate.id;
         kept_.pop_back();
       }
       kept_.push_back(std::move(candidate));
@@ -137,47 +65,47 @@ class SupernodeBuilder {
  private:
   // Maximal runs j, j + 1, ... in which each is the only child of the next and has its rows.
   void find_fundamental() {
-    const int n = higher_.num_variables();
-    const Children children(parents_);
-    seen_by_.assign(size(n), kNone);
-    node_of_.assign(size(n), kNone);
-    fundamental_.reserve(size(n));
+    const int n = behind_.num_variables();
+    const TreeChildren children(parents_);
+    seen_by_.assign(to_index(n), kNoNode);
+    node_of_.assign(to_index(n), kNoNode);
+    fundamental_.reserve(to_index(n));
     for (int j = 0; j < n; ++j) {
-      const int child = children.first[size(j)];
+      const int child = children.first[to_index(j)];
       const bool is_only_child =
-          child == j - 1 && child >= 0 && children.next[size(child)] == kNone;
+          child == j - 1 && child >= 0 && children.next[to_index(child)] == kNoNode;
       if (!is_only_child || !has_rows_of_last(j)) begin_supernode(j, children);
       Candidate& candidate = fundamental_.back();
       candidate.node.end_place = j + 1;
-      candidate.num_pivots += dimensions_[size(j)];
-      node_of_[size(j)] = candidate.id;
+      candidate.num_pivots += dimensions_[to_index(j)];
+      node_of_[to_index(j)] = candidate.id;
     }
     for (Candidate& candidate : fundamental_) finish(candidate);
-    joined_.assign(fundamental_.size(), kNone);
+    joined_.assign(fundamental_.size(), kNoNode);
   }
 
   [[nodiscard]] bool has_rows_of_last(int place) const {
     const int id = fundamental_.back().id;
-    return std::ranges::all_of(higher_.of(place),
-                               [&](int row) { return seen_by_[size(row)] == id; });
+    return std::ranges::all_of(behind_.of(place),
+                               [&](int row) { return seen_by_[to_index(row)] == id; });
   }
 
   // Its rows are those of the matrix and those of its children.
-  void begin_supernode(int place, const Children& children) {
+  void begin_supernode(int place, const TreeChildren& children) {
     Candidate& candidate = fundamental_.emplace_back();
     candidate.id = static_cast<int>(fundamental_.size()) - 1;
     candidate.node.first_place = place;
     const auto take = [&](std::span<const int> rows) {
       for (const int row : rows) {
-        if (row <= place || seen_by_[size(row)] == candidate.id) continue;
-        seen_by_[size(row)] = candidate.id;
+        if (row <= place || seen_by_[to_index(row)] == candidate.id) continue;
+        seen_by_[to_index(row)] = candidate.id;
         candidate.node.rows.push_back(row);
       }
     };
-    take(higher_.of(place));
-    for (int child = children.first[size(place)]; child != kNone;
-         child = children.next[size(child)]) {
-      take(fundamental_[size(node_of_[size(child)])].node.rows);
+    take(behind_.of(place));
+    for (int child = children.first[to_index(place)]; child != kNoNode;
+         child = children.next[to_index(child)]) {
+      take(fundamental_[to_index(node_of_[to_index(child)])].node.rows);
     }
   }
 
@@ -185,9 +113,9 @@ class SupernodeBuilder {
     Supernode& node = candidate.node;
     std::erase_if(node.rows, [&node](int row) { return row < node.end_place; });
     std::sort(node.rows.begin(), node.rows.end());
-    for (const int row : node.rows) candidate.num_rows += dimensions_[size(row)];
-    const int parent = parents_[size(node.end_place - 1)];
-    node.parent = parent == kNone ? kNone : node_of_[size(parent)];
+    for (const int row : node.rows) candidate.num_rows += dimensions_[to_index(row)];
+    const int parent = parents_[to_index(node.end_place - 1)];
+    node.parent = parent == kNoNode ? kNoNode : node_of_[to_index(parent)];
   }
 
   // Takes a last child's pivots into its parent, if that is worth its zeros.
@@ -205,21 +133,23 @@ class SupernodeBuilder {
   }
 
   std::vector<Supernode> numbered() {
-    std::vector<int> number(fundamental_.size(), kNone);
-    for (std::size_t k = 0; k < kept_.size(); ++k) number[size(kept_[k].id)] = static_cast<int>(k);
+    std::vector<int> number(fundamental_.size(), kNoNode);
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      number[to_index(kept_[k].id)] = static_cast<int>(k);
     std::vector<Supernode> supernodes;
     supernodes.reserve(kept_.size());
     for (Candidate& candidate : kept_) {
       int parent = candidate.node.parent;
-      while (parent != kNone && joined_[size(parent)] != kNone) parent = joined_[size(parent)];
-      candidate.node.parent = parent == kNone ? kNone : number[size(parent)];
+      while (parent != kNoNode && joined_[to_index(parent)] != kNoNode)
+        parent = joined_[to_index(parent)];
+      candidate.node.parent = parent == kNoNode ? kNoNode : number[to_index(parent)];
       supernodes.push_back(std::move(candidate.node));
     }
     return supernodes;
   }
 
   const std::vector<int>& parents_;
-  const BlockPattern& higher_;
+  const BlockPattern& behind_;
   const std::vector<int>& dimensions_;  // of every place
   std::vector<int> seen_by_;            // of every place the last supernode that has it as a row
   std::vector<int> node_of_;            // of every place its fundamental supernode
@@ -229,38 +159,24 @@ class SupernodeBuilder {
 
 }  // namespace
 
-std::vector<int> minimum_degree_order(const BlockPattern& pattern) {
-  std::vector<int> order(size(pattern.num_variables()));
-  const int status = amd_order(pattern.num_variables(), pattern.starts.data(), pattern.rows.data(),
-                               order.data(), nullptr, nullptr);
-  CORRIDOR_ENSURE(status == AMD_OK || status == AMD_OK_BUT_JUMBLED);
-  return order;
-}
-
 EliminationPlan plan_elimination(const BlockPattern& pattern, const std::vector<int>& order,
                                  std::span<const int> dimensions) {
   const std::size_t n = order.size();
-  CORRIDOR_EXPECT(size(pattern.num_variables()) == n && dimensions.size() == n);
-  EliminationPlan plan{order, std::vector<int>(n), {}};
-  const auto find_places = [&plan] {
-    for (std::size_t k = 0; k < plan.order.size(); ++k) {
-      plan.place[size(plan.order[k])] = static_cast<int>(k);
-    }
-  };
-  find_places();
-  const std::vector<int> first_parents = parents_of(by_place(pattern, plan.place, Side::kLower));
-  const std::vector<int> postorder = postorder_of(first_parents);
-  std::vector<int> moved_to(n), parents(n), placed_dimensions(n);
-  for (std::size_t k = 0; k < n; ++k) moved_to[size(postorder[k])] = static_cast<int>(k);
-  for (std::size_t k = 0; k < n; ++k) {
-    const int parent = first_parents[size(postorder[k])];
-    parents[k] = parent == kNone ? kNone : moved_to[size(parent)];
-    plan.order[k] = order[size(postorder[k])];
-    placed_dimensions[k] = dimensions[size(plan.order[k])];
+  CORRIDOR_EXPECT(to_index(pattern.num_variables()) == n && dimensions.size() == n);
+  const std::vector<int> parents = tree_parents(places_before(pattern, inverse_of(order)));
+  const std::vector<int> postorder = tree_postorder(parents);
+  const std::vector<int> moved_to = inverse_of(postorder);
+  EliminationPlan plan;
+  std::vector<int> placed_parents, placed_dimensions;
+  for (const int old_place : postorder) {
+    const int parent = parents[to_index(old_place)];
+    placed_parents.push_back(parent == kNoNode ? kNoNode : moved_to[to_index(parent)]);
+    plan.order.push_back(order[to_index(old_place)]);
+    placed_dimensions.push_back(dimensions[to_index(plan.order.back())]);
   }
-  find_places();
-  const BlockPattern higher = by_place(pattern, plan.place, Side::kHigher);
-  plan.supernodes = SupernodeBuilder(parents, higher, placed_dimensions).build();
+  plan.place = inverse_of(plan.order);
+  const BlockPattern behind = places_behind(pattern, plan.place);
+  plan.supernodes = SupernodeBuilder(placed_parents, behind, placed_dimensions).build();
   return plan;
 }
 

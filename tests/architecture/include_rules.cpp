@@ -66,6 +66,7 @@ const std::vector<Door>& doors() {
       {"open3d/", {"bench/metrics/map_cloud"}},
       {"ceres/", {"slam/backend/ceres/"}},
       {"cholmod", {"slam/linear/"}},
+      {"amd.h", {"slam/linear/minimum_degree"}},
       {"ccolamd", {"slam/linear/"}},
       {"suitesparse/", {"slam/linear/"}},
       {"Eigen/CholmodSupport", {"slam/linear/"}},

@@ -57,21 +57,19 @@ class LeastSquares final : public BackEnd {
                   "marginal covariance");
     }
     equations_.linearize(graph_, values_);
-    if (factorize(equations_.lower_hessian()) != linear::CholeskyStatus::kOk) {
+    if (cholesky_.factorize(equations_.hessian()) != linear::CholeskyStatus::kOk) {
       return fail(ErrorCode::kInvalid, "the normal equations are singular", "marginal covariance",
                   "a prior and factors that determine every variable");
     }
     const int row = equations_.first_row(key);
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(equations_.gradient().rows(), key.dimension());
     unit.middleRows(row, key.dimension()).setIdentity();
-    return Eigen::MatrixXd(cholesky_.solve(unit).middleRows(row, key.dimension()));
+    Eigen::MatrixXd columns(unit.rows(), unit.cols());  // of the inverse Hessian
+    cholesky_.solve(unit, columns);
+    return Eigen::MatrixXd(columns.middleRows(row, key.dimension()));
   }
 
  private:
-  linear::CholeskyStatus factorize(const Eigen::SparseMatrix<double>& lower) {
-    return cholesky_.factorize(lower, equations_.block_starts());
-  }
-
   BackEndReport begin_report() const {
     BackEndReport report;
     report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
@@ -81,14 +79,11 @@ class LeastSquares final : public BackEnd {
 
   // delta of (H + lambda diag(H)) delta = -g.
   bool solve_step(double lambda, Eigen::VectorXd& delta) {
-    damped_ = equations_.lower_hessian();
-    if (lambda > 0) {
-      for (int i = 0; i < damped_.cols(); ++i) {
-        damped_.valuePtr()[damped_.outerIndexPtr()[i]] *= 1 + lambda;
-      }
+    if (cholesky_.factorize(equations_.hessian(), lambda) != linear::CholeskyStatus::kOk) {
+      return false;
     }
-    if (factorize(damped_) != linear::CholeskyStatus::kOk) return false;
-    delta = -cholesky_.solve(equations_.gradient());
+    delta.resize(equations_.gradient().rows());
+    cholesky_.solve(-equations_.gradient(), delta);
     return delta.allFinite();
   }
 
@@ -161,7 +156,6 @@ class LeastSquares final : public BackEnd {
   Values values_;
   NormalEquations equations_;
   linear::SparseCholesky cholesky_;
-  Eigen::SparseMatrix<double> damped_;
 };
 
 }  // namespace

@@ -41,12 +41,11 @@ void NormalEquations::add_terms(graph::FactorId id, const graph::Residual<F>& r,
     const auto J_a = columns_of<F, a>(J);
     gradient_.segment<kRowsOfA>(row[a]).noalias() += J_a.transpose() * r;
     for_each_index<a + 1>([&](auto b) {
-      constexpr int kRowsOfB = graph::dimension_of(F::kKinds[b]);
       const auto J_b = columns_of<F, b>(J);
       if (target->is_transposed) {
-        blocks_.block<kRowsOfB, kRowsOfA>(target->slot).noalias() += J_b.transpose() * J_a;
+        blocks_.add(target->slot, J_b.transpose().lazyProduct(J_a));
       } else {
-        blocks_.block<kRowsOfA, kRowsOfB>(target->slot).noalias() += J_a.transpose() * J_b;
+        blocks_.add(target->slot, J_a.transpose().lazyProduct(J_b));
       }
       ++target;
     });
@@ -66,11 +65,6 @@ double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::
   });
   // What is not finite in a Jacobian is not in the gradient either.
   return gradient_.allFinite() ? cost : std::numeric_limits<double>::quiet_NaN();
-}
-
-const Eigen::SparseMatrix<double>& NormalEquations::lower_hessian() {
-  blocks_.write_lower(lower_);
-  return lower_;
 }
 
 int NormalEquations::first_row(graph::Key key) const {

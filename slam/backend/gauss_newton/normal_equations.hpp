@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,9 +26,8 @@ class NormalEquations {
   double linearize(const graph::FactorGraph& graph, const graph::Values& values);
 
   [[nodiscard]] const Eigen::VectorXd& gradient() const { return gradient_; }
-  // Scalar lower triangle of H of the last linearize().
-  [[nodiscard]] const Eigen::SparseMatrix<double>& lower_hessian();
-  [[nodiscard]] const std::vector<int>& block_starts() const { return blocks_.starts(); }
+  // H of the last linearize().
+  [[nodiscard]] const linear::BlockMatrix& hessian() const { return blocks_; }
   [[nodiscard]] const std::vector<graph::Key>& variables() const { return index_.keys(); }
   [[nodiscard]] bool contains(graph::Key key) const { return index_.contains(key); }
   // First scalar row of a variable. Requires contains(key).
@@ -56,7 +54,6 @@ class NormalEquations {
   std::vector<int> rows_;
   std::vector<std::size_t> first_row_;
   Eigen::VectorXd gradient_;
-  Eigen::SparseMatrix<double> lower_;
 };
 
 }  // namespace corridor::backend

@@ -7,9 +7,9 @@
 #include "slam/core/expect.hpp"
 
 namespace corridor::backend {
-namespace {
+using linear::to_index;
 
-constexpr std::size_t size(int value) { return static_cast<std::size_t>(value); }
+namespace {
 
 bool holds(std::span<const int> variables, int variable) {
   return std::find(variables.begin(), variables.end(), variable) != variables.end();
@@ -26,7 +26,7 @@ int BayesTree::add_variable(int dimension) {
   const int variable = static_cast<int>(dimensions_.size());
   dimensions_.push_back(dimension);
   first_rows_.push_back(static_cast<int>(deltas_.size()));
-  deltas_.resize(deltas_.size() + size(dimension), 0.0);
+  deltas_.resize(deltas_.size() + to_index(dimension), 0.0);
   clique_of_.push_back(kNone);
   rows_.push_back(kNone);
   changed_in_.push_back(0);
@@ -41,7 +41,7 @@ void BayesTree::forget(int variable) {
 }
 
 void BayesTree::clear_delta(int variable) {
-  std::fill_n(deltas_.begin() + first_rows_[size(variable)], dimension(variable), 0.0);
+  std::fill_n(deltas_.begin() + first_rows_[to_index(variable)], dimension(variable), 0.0);
 }
 
 void BayesTree::touch_path(int number) {
@@ -90,7 +90,7 @@ void BayesTree::detach() {
 
 void BayesTree::drop(int number) {
   Clique& clique = at(number);
-  for (const int variable : clique.frontals()) clique_of_[size(variable)] = kNone;
+  for (const int variable : clique.frontals()) clique_of_[to_index(variable)] = kNone;
   num_flops_ -= clique.num_flops;
   memory_.give_back(clique.memory, Front::memory_size(clique.front.num_pivots(),
                                                       clique.front.num_below()));
@@ -112,22 +112,22 @@ void BayesTree::attach(const VariableSets& factors, std::span<const int> last) {
     if (parent == kNone) {
       roots_.push_back(new_cliques_[k]);
     } else {
-      hang(new_cliques_[k], new_cliques_[size(parent)]);
+      hang(new_cliques_[k], new_cliques_[to_index(parent)]);
     }
   }
   for (std::size_t k = 0; k < orphans_.size(); ++k) {
-    hang(orphans_[k], new_cliques_[size(order_.clique_of_set(factors.size() + k))]);
+    hang(orphans_[k], new_cliques_[to_index(order_.clique_of_set(factors.size() + k))]);
   }
   orphans_.clear();
   // Factor sets of every new clique.
   first_factor_of_.assign(new_cliques_.size() + 1, 0);
   for (std::size_t k = 0; k < factors.size(); ++k) {
-    ++first_factor_of_[size(order_.clique_of_set(k)) + 1];
+    ++first_factor_of_[to_index(order_.clique_of_set(k)) + 1];
   }
   std::partial_sum(first_factor_of_.begin(), first_factor_of_.end(), first_factor_of_.begin());
   factors_of_.resize(factors.size());
   for (std::size_t k = factors.size(); k-- > 0;) {
-    factors_of_[size(--first_factor_of_[size(order_.clique_of_set(k)) + 1])] = static_cast<int>(k);
+    factors_of_[to_index(--first_factor_of_[to_index(order_.clique_of_set(k)) + 1])] = static_cast<int>(k);
   }
   // Each start moved to the one before it.
   first_factor_of_.erase(first_factor_of_.begin());
@@ -152,7 +152,7 @@ int BayesTree::make_clique(const linear::Supernode& node) {
   for (int place = node.first_place; place < node.end_place; ++place) {
     const int variable = order_.variable_at(place);
     clique.variables.push_back(variable);
-    clique_of_[size(variable)] = number;
+    clique_of_[to_index(variable)] = number;
     num_pivots += dimension(variable);
   }
   clique.num_frontals = static_cast<int>(clique.variables.size());
@@ -169,17 +169,17 @@ int BayesTree::make_clique(const linear::Supernode& node) {
 }
 
 std::span<const int> BayesTree::factors_of(int k) const {
-  const int first = first_factor_of_[size(k)];
-  return std::span(factors_of_).subspan(size(first), size(first_factor_of_[size(k) + 1] - first));
+  const int first = first_factor_of_[to_index(k)];
+  return std::span(factors_of_).subspan(to_index(first), to_index(first_factor_of_[to_index(k) + 1] - first));
 }
 
 Front& BayesTree::open(int k) {
-  open_ = new_cliques_[size(k)];
+  open_ = new_cliques_[to_index(k)];
   Clique& clique = at(open_);
   clique.front.set_zero();
   int row = 0;
   for (const int variable : clique.variables) {
-    rows_[size(variable)] = row;
+    rows_[to_index(variable)] = row;
     row += dimension(variable);
   }
   for (int child = clique.first_child; child != kNone; child = at(child).next_sibling) {

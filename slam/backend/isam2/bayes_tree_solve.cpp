@@ -7,9 +7,9 @@
 #include "slam/core/expect.hpp"
 
 namespace corridor::backend {
-namespace {
+using linear::to_index;
 
-constexpr std::size_t size(int value) { return static_cast<std::size_t>(value); }
+namespace {
 
 using Column = Eigen::Map<const Eigen::VectorXd>;
 
@@ -25,13 +25,13 @@ void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
     const double* const from = delta(variable);
     below_.insert(below_.end(), from, from + dimension(variable));
   }
-  z_.resize(size(num_pivots));
+  z_.resize(to_index(num_pivots));
   const Column below(below_.data(), num_below);
   double largest_change = 0;
   for (int k = 0; k < num_pivots; ++k) {
     const double* const column = front.pivot_column(k);
-    z_[size(k)] = column[front.last_row()] - Column(column + num_pivots, num_below).dot(below);
-    largest_change = std::max(largest_change, std::abs(z_[size(k)] - front.kept_z()[k]));
+    z_[to_index(k)] = column[front.last_row()] - Column(column + num_pivots, num_below).dot(below);
+    largest_change = std::max(largest_change, std::abs(z_[to_index(k)] - front.kept_z()[k]));
   }
   is_changed = !clique.is_solved || largest_change > threshold;
   if (!is_changed) return;
@@ -39,16 +39,16 @@ void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
   std::copy(z_.begin(), z_.end(), front.kept_z());
   for (int k = num_pivots; k-- > 0;) {
     const double* const column = front.pivot_column(k);
-    double sum = z_[size(k)];
-    for (int r = k + 1; r < num_pivots; ++r) sum -= column[r] * z_[size(r)];
-    z_[size(k)] = sum / column[k];
+    double sum = z_[to_index(k)];
+    for (int r = k + 1; r < num_pivots; ++r) sum -= column[r] * z_[to_index(r)];
+    z_[to_index(k)] = sum * column[k];
   }
   const double* from = z_.data();
   for (const int variable : clique.frontals()) {
-    std::copy_n(from, dimension(variable), deltas_.data() + first_rows_[size(variable)]);
+    std::copy_n(from, dimension(variable), deltas_.data() + first_rows_[to_index(variable)]);
     from += dimension(variable);
     changed_.push_back(variable);
-    changed_in_[size(variable)] = pass_;
+    changed_in_[to_index(variable)] = pass_;
   }
 }
 
@@ -60,7 +60,7 @@ void BayesTree::solve_changed(double threshold) {
     Clique& clique = at(open_stack_.back());
     open_stack_.pop_back();
     const bool is_below_changed = std::ranges::any_of(
-        clique.separator(), [&](int v) { return changed_in_[size(v)] == pass_; });
+        clique.separator(), [&](int v) { return changed_in_[to_index(v)] == pass_; });
     bool is_changed = false;
     if (is_below_changed || !clique.is_solved || threshold < 0) solve(clique, threshold, is_changed);
     if (!is_changed && !is_below_changed && !clique.are_children_due) continue;
@@ -97,7 +97,10 @@ Eigen::MatrixXd BayesTree::joint_covariance(const Clique& clique,
                                             const Eigen::MatrixXd& of_separator) const {
   const int p = clique.front.num_pivots(), b = clique.front.num_below();
   Eigen::MatrixXd L(p + b, p);
-  for (int k = 0; k < p; ++k) L.col(k) = Column(clique.front.pivot_column(k), p + b);
+  for (int k = 0; k < p; ++k) {
+    L.col(k) = Column(clique.front.pivot_column(k), p + b);
+    L(k, k) = 1 / L(k, k);
+  }
   const auto L11 = L.topRows(p).triangularView<Eigen::Lower>();
   const Eigen::MatrixXd inverse = L11.solve(Eigen::MatrixXd::Identity(p, p));
   const Eigen::MatrixXd by_separator = -inverse.transpose() * L.bottomRows(b).transpose();

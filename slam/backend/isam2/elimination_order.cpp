@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "slam/linear/constrained_order.hpp"
+#include "slam/linear/minimum_degree.hpp"
 
 namespace corridor::backend {
-namespace {
 
-constexpr std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
-}  // namespace
-
+using linear::to_index;
 void EliminationOrder::plan(std::span<const int> variables, const VariableSets& sets,
                             std::span<const int> last, std::span<const int> dimensions) {
   variables_ = variables;
@@ -19,12 +15,12 @@ void EliminationOrder::plan(std::span<const int> variables, const VariableSets& 
   local_.resize(dimensions.size());
   local_dimensions_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    local_[size(variables[k])] = static_cast<int>(k);
-    local_dimensions_[k] = dimensions[size(variables[k])];
+    local_[to_index(variables[k])] = static_cast<int>(k);
+    local_dimensions_[k] = dimensions[to_index(variables[k])];
   }
   find_pattern(sets);
   groups_.assign(n, 0);
-  for (const int variable : last) groups_[size(local_[size(variable)])] = n > 1 ? 1 : 0;
+  for (const int variable : last) groups_[to_index(local_[to_index(variable)])] = n > 1 ? 1 : 0;
   linear::constrained_minimum_degree_order(pattern_, groups_, order_);
   plan_ = linear::plan_elimination(pattern_, order_, local_dimensions_);
   clique_of_place_.resize(n);
@@ -38,9 +34,9 @@ void EliminationOrder::plan(std::span<const int> variables, const VariableSets& 
   for (std::size_t s = 0; s < sets.size(); ++s) {
     int first_place = static_cast<int>(n);
     for (std::size_t k = 0; k < sets[s].size(); ++k) {
-      first_place = std::min(first_place, plan_.place[size(local_members_[member++])]);
+      first_place = std::min(first_place, plan_.place[to_index(local_members_[member++])]);
     }
-    clique_of_set_[s] = clique_of_place_[size(first_place)];
+    clique_of_set_[s] = clique_of_place_[to_index(first_place)];
   }
 }
 
@@ -49,8 +45,8 @@ void EliminationOrder::find_pattern(const VariableSets& sets) {
   local_members_.resize(sets.members().size());
   first_set_of_.assign(n + 1, 0);
   for (std::size_t m = 0; m < local_members_.size(); ++m) {
-    local_members_[m] = local_[size(sets.members()[m])];
-    ++first_set_of_[size(local_members_[m]) + 1];
+    local_members_[m] = local_[to_index(sets.members()[m])];
+    ++first_set_of_[to_index(local_members_[m]) + 1];
   }
   std::partial_sum(first_set_of_.begin(), first_set_of_.end(), first_set_of_.begin());
   sets_of_.resize(local_members_.size());
@@ -59,18 +55,18 @@ void EliminationOrder::find_pattern(const VariableSets& sets) {
   std::size_t member = 0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     for (std::size_t k = 0; k < sets[s].size(); ++k) {
-      sets_of_[size(next[size(local_members_[member++])]++)] = static_cast<int>(s);
+      sets_of_[to_index(next[to_index(local_members_[member++])]++)] = static_cast<int>(s);
     }
   }
   pattern_.starts.assign(1, 0);
   pattern_.rows.clear();
   seen_by_.assign(n, -1);
   for (int a = 0; a < static_cast<int>(n); ++a) {
-    for (int k = first_set_of_[size(a)]; k < first_set_of_[size(a) + 1]; ++k) {
-      for (const int variable : sets[size(sets_of_[size(k)])]) {
-        const int b = local_[size(variable)];
-        if (b <= a || seen_by_[size(b)] == a) continue;
-        seen_by_[size(b)] = a;
+    for (int k = first_set_of_[to_index(a)]; k < first_set_of_[to_index(a) + 1]; ++k) {
+      for (const int variable : sets[to_index(sets_of_[to_index(k)])]) {
+        const int b = local_[to_index(variable)];
+        if (b <= a || seen_by_[to_index(b)] == a) continue;
+        seen_by_[to_index(b)] = a;
         pattern_.rows.push_back(b);
       }
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/backend/isam2/variable_sets.hpp"
+#include "slam/linear/block_pattern.hpp"
 #include "slam/linear/supernodes.hpp"
 
 namespace corridor::backend {

@@ -1,14 +1,13 @@
 #include "slam/backend/isam2/front.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 namespace corridor::backend {
+using linear::to_index;
+
 namespace {
 
 using linear::front_stride;
-
-constexpr std::size_t size(std::ptrdiff_t value) { return static_cast<std::size_t>(value); }
 
 // A pivot below this share of its diagonal entry has no correct digit left.
 constexpr double kMinPivotRatio = 1e-15;
@@ -22,7 +21,7 @@ std::ptrdiff_t update_size(int num_below) { return (num_below + 1) * front_strid
 }  // namespace
 
 std::size_t Front::memory_size(int num_pivots, int num_below) {
-  return size(panel_size(num_pivots, num_below) + update_size(num_below) + num_pivots);
+  return to_index(panel_size(num_pivots, num_below) + update_size(num_below) + num_pivots);
 }
 
 Front::Front(double* memory, int num_pivots, int num_below)
@@ -62,10 +61,12 @@ void Front::add_update(const Front& child, std::span<const RowRun> runs) {
 }
 
 int Front::eliminate() {
-  // z_ is free until the first solution.
-  for (int k = 0; k < num_pivots_; ++k) z_[k] = kMinPivotRatio * panel_[k * stride_ + k];
-  const int num_good =
-      linear::factorize_panel(panel_, stride_, last_row() + 1, num_pivots_, z_);
+  for (int k = 0; k < num_pivots_; ++k) z_[k] = panel_[k * stride_ + k];  // free until a solution
+  int num_good = linear::factorize_panel(panel_, stride_, last_row() + 1, num_pivots_);
+  for (int k = 0; k < num_good; ++k) {
+    const double inverse = panel_[k * stride_ + k];  // of the square root of the pivot
+    if (!(1 > kMinPivotRatio * z_[k] * inverse * inverse)) num_good = k;
+  }
   if (num_good == num_pivots_) {
     linear::subtract_outer_product(panel_, stride_, last_row() + 1, num_pivots_, update_,
                                    update_stride_);

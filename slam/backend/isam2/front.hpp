@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <span>
 
+#include "slam/linear/block_pattern.hpp"
 #include "slam/linear/front_kernels.hpp"
 
 namespace corridor::backend {
@@ -57,7 +58,7 @@ class Front {
   // matrix showed not to be positive definite.
   int eliminate();
 
-  // After eliminate(): column `pivot` of [L11; L21; y^T].
+  // After eliminate(): column `pivot` of [L11; L21; y^T], the diagonal of L11 inverted.
   [[nodiscard]] const double* pivot_column(int pivot) const { return panel_ + pivot * stride_; }
   // Column of the update, so that row r of the front is at [r]; column >= num_pivots().
   [[nodiscard]] const double* update_column(int column) const {

@@ -12,14 +12,14 @@
 #include "slam/graph/variable_index.hpp"
 
 namespace corridor::backend {
+using linear::to_index;
+
 namespace {
 
 using graph::FactorId;
 using graph::Key;
 using graph::NewFactor;
 using graph::Values;
-
-constexpr std::size_t size(int value) { return static_cast<std::size_t>(value); }
 
 class Isam2 final : public BackEnd {
  public:
@@ -154,9 +154,9 @@ class Isam2 final : public BackEnd {
     variables_of_.add(variables_);
     is_collected_.push_back(false);
     for (const int variable : variables_) {
-      factors_of_[size(variable)].push_back(id);
+      factors_of_[to_index(variable)].push_back(id);
       tree_.touch(variable);
-      information_[size(variable)].is_known = false;
+      information_[to_index(variable)].is_known = false;
     }
     return id;
   }
@@ -164,24 +164,24 @@ class Isam2 final : public BackEnd {
   void remove_factor(FactorId id) {
     graph_.remove(id);
     for (const int variable : variables_of_[id]) {
-      std::erase(factors_of_[size(variable)], id);
+      std::erase(factors_of_[to_index(variable)], id);
       tree_.touch(variable);
-      information_[size(variable)].is_known = false;
+      information_[to_index(variable)].is_known = false;
     }
     is_estimate_current_ = false;
   }
 
   void mark(int variable) {
-    if (is_marked_[size(variable)]) return;
-    is_marked_[size(variable)] = true;
+    if (is_marked_[to_index(variable)]) return;
+    is_marked_[to_index(variable)] = true;
     marked_.push_back(variable);
   }
 
   // Moves the linearisation point of every marked variable to its estimate.
   void relinearize(BackEndReport& report) {
     for (const int variable : marked_) {
-      is_marked_[size(variable)] = false;
-      linearization_.retract(index_.keys()[size(variable)], tree_.delta(variable));
+      is_marked_[to_index(variable)] = false;
+      linearization_.retract(index_.keys()[to_index(variable)], tree_.delta(variable));
       tree_.clear_delta(variable);
       tree_.touch_everywhere(variable);
       forget_information_around(variable);
@@ -191,8 +191,8 @@ class Isam2 final : public BackEnd {
   }
 
   void forget_information_around(int variable) {
-    for (const FactorId id : factors_of_[size(variable)]) {
-      for (const int other : variables_of_[id]) information_[size(other)].is_known = false;
+    for (const FactorId id : factors_of_[to_index(variable)]) {
+      for (const int other : variables_of_[id]) information_[to_index(other)].is_known = false;
     }
   }
 
@@ -201,7 +201,7 @@ class Isam2 final : public BackEnd {
     collected_.clear();
     sets_.clear();
     for (const int variable : tree_.detached()) {
-      for (const FactorId id : factors_of_[size(variable)]) {
+      for (const FactorId id : factors_of_[to_index(variable)]) {
         if (is_collected_[id]) continue;
         const std::span<const int> variables = variables_of_[id];
         const bool is_whole = std::all_of(variables.begin(), variables.end(), [&](int v) {
@@ -223,17 +223,17 @@ class Isam2 final : public BackEnd {
     if (detached.empty()) return true;
     report.num_eliminated += static_cast<std::int64_t>(detached.size());
     collect_factors();
-    const std::size_t num_last = std::min(detached.size(), size(params_.num_last));
+    const std::size_t num_last = std::min(detached.size(), to_index(params_.num_last));
     tree_.attach(sets_, detached.last(num_last));
     for (int k = 0; k < tree_.num_new_cliques(); ++k) {
       Front& front = tree_.open(k);
       for (const int set : tree_.factors_of(k)) {
-        add_linearized(graph_, collected_[size(set)], linearization_, sets_[size(set)], tree_,
+        add_linearized(graph_, collected_[to_index(set)], linearization_, sets_[to_index(set)], tree_,
                        front);
       }
       if (tree_.close()) continue;
       report.status = SolveStatus::kRankDeficient;
-      report.undetermined = index_.keys()[size(tree_.first_bad_variable())];
+      report.undetermined = index_.keys()[to_index(tree_.first_bad_variable())];
       return false;
     }
     return true;
@@ -245,19 +245,19 @@ class Isam2 final : public BackEnd {
     for (const int variable : tree_.changed()) {
       const double step = squared_step(variable);
       largest_step_ = std::max(largest_step_, step);
-      const auto kind = static_cast<std::size_t>(index_.keys()[size(variable)].kind);
+      const auto kind = static_cast<std::size_t>(index_.keys()[to_index(variable)].kind);
       if (step > squared_threshold_[kind]) mark(variable);
     }
   }
 
   // delta^T H_vv delta.
   double squared_step(int variable) {
-    Information& known = information_[size(variable)];
+    Information& known = information_[to_index(variable)];
     const int dimension = tree_.dimension(variable);
     if (!known.is_known) {
       known.H.setZero();
-      for (const FactorId id : factors_of_[size(variable)]) {
-        add_information(graph_, id, linearization_, index_.keys()[size(variable)], known.H);
+      for (const FactorId id : factors_of_[to_index(variable)]) {
+        add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], known.H);
       }
       known.is_known = true;
     }

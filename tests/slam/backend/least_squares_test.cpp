@@ -143,7 +143,7 @@ TEST(LeastSquares, MarginalCovarianceIsTheBlockOfTheInverseHessian) {
   }
   equations.linearize(solver->graph(), solver->estimate());
   const Eigen::MatrixXd hessian =
-      Eigen::MatrixXd(equations.lower_hessian()).selfadjointView<Eigen::Lower>();
+      Eigen::MatrixXd(equations.hessian().scalars()).selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd inverse = hessian.inverse();
   const int row = equations.first_row(pose_key(7));
   const auto covariance = solver->marginal_covariance(pose_key(7));
