@@ -35,14 +35,27 @@ OrientedPose OrientedPose::plus(const Pose2::Tangent& tau) const {
 }
 
 template <class T>
-void Values::set(Slots<T>& slots, std::uint32_t index, const T& value) {
-  if (index >= slots.values.size()) {
-    slots.values.resize(index + 1);
-    slots.are_set.resize(index + 1, false);
+bool Values::Slots<T>::set(std::uint32_t index, const T& value) {
+  if (values.empty()) first = index;
+  if (index < first) {
+    values.insert(values.begin(), first - index, value);
+    are_set.insert(are_set.begin(), first - index, false);
+    first = index;
   }
-  if (!slots.are_set[index]) ++num_values_;
-  slots.are_set[index] = true;
-  slots.values[index] = value;
+  const std::size_t slot = index - first;
+  if (slot >= values.size()) {
+    values.resize(slot + 1, value);
+    are_set.resize(slot + 1, false);
+  }
+  values[slot] = value;
+  const bool is_new = !are_set[slot];
+  are_set[slot] = true;
+  return is_new;
+}
+
+template <class T>
+void Values::set(Slots<T>& slots, std::uint32_t index, const T& value) {
+  if (slots.set(index, value)) ++num_values_;
 }
 
 void Values::set_pose(std::uint32_t index, const Pose2& T_map_base) {
@@ -76,14 +89,14 @@ bool Values::contains(Key key) const {
 void Values::retract(Key key, const double* delta) {
   CORRIDOR_EXPECT(contains(key));
   for_each_kind(slots_, [&](VariableKind kind, auto& slots) {
-    if (kind == key.kind) move(slots.values[key.index], delta);
+    if (kind == key.kind) move(slots.values[key.index - slots.first], delta);
   });
 }
 
 void Values::merge(const Values& other) {
   const auto take = [this](auto& slots, const auto& from) {
     for (std::uint32_t i = 0; i < from.values.size(); ++i) {
-      if (from.has(i)) set(slots, i, from.values[i]);
+      if (from.are_set[i]) set(slots, from.first + i, from.values[i]);
     }
   };
   take(std::get<0>(slots_), std::get<0>(other.slots_));
@@ -97,7 +110,7 @@ std::vector<Key> Values::keys() const {
   keys.reserve(num_values_);
   for_each_kind(slots_, [&](VariableKind kind, const auto& slots) {
     for (std::uint32_t i = 0; i < slots.values.size(); ++i) {
-      if (slots.has(i)) keys.push_back({kind, i});
+      if (slots.are_set[i]) keys.push_back({kind, slots.first + i});
     }
   });
   return keys;

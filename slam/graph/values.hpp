@@ -38,15 +38,21 @@ struct OrientedPose {
 };
 
 class Values {
-  // Indices are dense by convention: a slot per index, empty where no variable has it.
+  // Indices are dense by convention: a slot for each from the lowest to the highest, empty where no
+  // variable has it.
   template <class T>
   struct Slots {
+    std::uint32_t first = 0;
     std::vector<T> values;
     std::vector<bool> are_set;
 
     [[nodiscard]] bool has(std::uint32_t index) const {
-      return index < are_set.size() && are_set[index];
+      return index >= first && index - first < are_set.size() && are_set[index - first];
     }
+    // Requires has(index).
+    [[nodiscard]] const T& at(std::uint32_t index) const { return values[index - first]; }
+    // Makes the slot; true if it was empty.
+    bool set(std::uint32_t index, const T& value);
   };
   using AllSlots = std::tuple<Slots<OrientedPose>, Slots<Eigen::Vector2d>, Slots<Eigen::Vector3d>,
                               Slots<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
@@ -55,7 +61,7 @@ class Values {
   [[nodiscard]] const auto& get(std::uint32_t index) const {
     const auto& slots = std::get<static_cast<std::size_t>(kKind)>(slots_);
     CORRIDOR_EXPECT(slots.has(index));
-    return slots.values[index];
+    return slots.at(index);
   }
 
  public:
