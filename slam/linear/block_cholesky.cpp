@@ -100,7 +100,7 @@ bool BlockCholesky::factorize_front(const Front& front, FactorDiagonal& diagonal
 }
 
 void BlockCholesky::substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
-                               Eigen::Ref<Eigen::MatrixXd> x) {
+                               Eigen::Ref<Eigen::MatrixXd>& x) {
   const std::vector<int>& order = layout_.row_order;
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     for (std::size_t k = 0; k < order.size(); ++k) solution_[k] = b(order[k], c);

@@ -29,7 +29,7 @@ class BlockCholesky final : public LinearSolver {
   void analyze(const BlockMatrix& matrix, const std::vector<int>& order) override;
   int eliminate(const BlockMatrix& matrix, double damping) override;
   void substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
-                  Eigen::Ref<Eigen::MatrixXd> x) override;
+                  Eigen::Ref<Eigen::MatrixXd>& x) override;
 
   void copy_blocks(const Front& front, const double* values, double damping);
   double* add_children(const Front& front, double* update);

@@ -7,14 +7,15 @@
 namespace corridor::linear {
 namespace {
 
-// Numbers that the machine works on at a time.
+// Numbers that the machine works on at a time; eight with the preset "native" only.
 #if defined(__AVX512F__)
 constexpr int kLanes = 8;
 #else
 constexpr int kLanes = 4;
 #endif
-typedef double Lanes __attribute__((vector_size(8 * kLanes)));
-typedef double LooseLanes __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
+static_assert(kLanes - 1 <= kFrontPadding);
+using Lanes __attribute__((vector_size(8 * kLanes))) = double;
+using LooseLanes __attribute__((vector_size(8 * kLanes), aligned(8), may_alias)) = double;
 
 // Columns that are worked on at a time: with two rows of lanes they fill the registers.
 constexpr int kMaxWidth = 6;

@@ -71,7 +71,7 @@ class LinearSolver {
   // which the matrix is not positive definite; -1 if it is.
   virtual int eliminate(const BlockMatrix& matrix, double damping) = 0;
   virtual void substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
-                          Eigen::Ref<Eigen::MatrixXd> x) = 0;
+                          Eigen::Ref<Eigen::MatrixXd>& x) = 0;
 
   [[nodiscard]] bool is_analyzed(const BlockMatrix& matrix) const;
   CholeskyStatus try_factorize(const BlockMatrix& matrix, double damping);

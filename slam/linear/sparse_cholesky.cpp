@@ -140,7 +140,8 @@ int SparseCholesky::eliminate(const BlockMatrix& matrix, double damping) {
       damping > 0 ? impl_->damped_values(lower, matrix.starts(), damping) : lower.valuePtr();
   cholmod_sparse view = view_of(lower, values);
   cholmod_factorize(&view, impl_->factor, &impl_->common);
-  if (impl_->common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  // Also if the factor has more entries than CHOLMOD can count.
+  if (impl_->common.status < CHOLMOD_OK) throw std::bad_alloc();
   const cholmod_factor& factor = *impl_->factor;
   if (factor.minor < factor.n) return static_cast<const int*>(factor.Perm)[factor.minor];
   FactorDiagonal diagonal;
@@ -149,7 +150,7 @@ int SparseCholesky::eliminate(const BlockMatrix& matrix, double damping) {
 }
 
 void SparseCholesky::substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
-                                Eigen::Ref<Eigen::MatrixXd> x) {
+                                Eigen::Ref<Eigen::MatrixXd>& x) {
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     cholmod_dense b_view = view_of(const_cast<double*>(b.col(c).data()), b.rows());
     cholmod_dense x_view = view_of(x.col(c).data(), x.rows());

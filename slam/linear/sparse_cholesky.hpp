@@ -31,7 +31,7 @@ class SparseCholesky final : public LinearSolver {
   void analyze(const BlockMatrix& matrix, const std::vector<int>& order) override;
   int eliminate(const BlockMatrix& matrix, double damping) override;
   void substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
-                  Eigen::Ref<Eigen::MatrixXd> x) override;
+                  Eigen::Ref<Eigen::MatrixXd>& x) override;
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -132,17 +132,21 @@ class SupernodeBuilder {
     return true;
   }
 
+  // Parents are numbers of kept supernodes at last.
   std::vector<Supernode> numbered() {
     std::vector<int> number(fundamental_.size(), kNoNode);
-    for (std::size_t k = 0; k < kept_.size(); ++k)
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
       number[to_index(kept_[k].id)] = static_cast<int>(k);
+    }
+    // From the roots down: whatever was joined has the number of the one that took it.
+    for (std::size_t id = number.size(); id-- > 0;) {
+      if (joined_[id] != kNoNode) number[id] = number[to_index(joined_[id])];
+    }
     std::vector<Supernode> supernodes;
     supernodes.reserve(kept_.size());
     for (Candidate& candidate : kept_) {
-      int parent = candidate.node.parent;
-      while (parent != kNoNode && joined_[to_index(parent)] != kNoNode)
-        parent = joined_[to_index(parent)];
-      candidate.node.parent = parent == kNoNode ? kNoNode : number[to_index(parent)];
+      int& parent = candidate.node.parent;
+      if (parent != kNoNode) parent = number[to_index(parent)];
       supernodes.push_back(std::move(candidate.node));
     }
     return supernodes;
