@@ -9,58 +9,21 @@
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
+#include "tests/slam/backend/ring_problem.hpp"
 
 namespace corridor::backend {
 namespace {
 
 using graph::NewFactor;
 using graph::pose_key;
+using testing::edge;
+using testing::largest_difference;
+using testing::PoseGraph;
+using testing::prior;
+using testing::ring;
 
 // Both solvers stop at a relative decrease of 1e-12 in these tests.
 constexpr double kSameOptimum = 1e-6;
-
-struct PoseGraph {
-  std::vector<std::vector<NewFactor>> steps;  // factors that arrive with each pose
-  graph::Values initial;
-};
-
-NewFactor edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
-  const Eigen::Vector3d weight(10, 10, 30);
-  return graph::RelativePose(pose_key(i), pose_key(j), T_i_j,
-                                               weight.asDiagonal().toDenseMatrix());
-}
-
-NewFactor prior(std::uint32_t i, const Pose2& T_map_base = {}) {
-  return graph::PosePrior(pose_key(i), T_map_base,
-                                            1e3 * Eigen::Matrix3d::Identity());
-}
-
-Pose2 noisy(Rng& rng, const Pose2& pose) {
-  return pose * Pose2::exp({rng.normal(0, 0.05), rng.normal(0, 0.05), rng.normal(0, 0.02)});
-}
-
-// A robot that drives two rounds of a ring, with a closure at each pose of the second.
-PoseGraph ring(std::uint64_t seed) {
-  Rng rng(seed);
-  constexpr std::uint32_t kRound = 12;
-  const Pose2 step(1, 0, 2 * std::numbers::pi / kRound);
-  PoseGraph problem;
-  Pose2 dead_reckoning;
-  for (std::uint32_t i = 0; i < 2 * kRound; ++i) {
-    std::vector<NewFactor> factors;
-    if (i == 0) {
-      factors.push_back(prior(0));
-    } else {
-      const Pose2 measured = noisy(rng, step);
-      dead_reckoning = dead_reckoning * measured;
-      factors.push_back(edge(i - 1, i, measured));
-    }
-    if (i >= kRound) factors.push_back(edge(i - kRound, i, noisy(rng, Pose2())));
-    problem.initial.set_pose(i, dead_reckoning);
-    problem.steps.push_back(std::move(factors));
-  }
-  return problem;
-}
 
 LeastSquaresParams exact(bool use_damping) {
   LeastSquaresParams params;
@@ -85,14 +48,6 @@ graph::Values solve(PoseGraph problem, const LeastSquaresParams& params, bool in
   }
   EXPECT_EQ(solver->solve().status, SolveStatus::kConverged);
   return solver->estimate();
-}
-
-double largest_difference(const graph::Values& a, const graph::Values& b) {
-  double largest = 0;
-  for (const graph::Key key : a.keys()) {
-    largest = std::max(largest, a.pose(key.index).minus(b.pose(key.index)).norm());
-  }
-  return largest;
 }
 
 RC_GTEST_PROP(LeastSquares, IncrementalUpdatesEndAtTheBatchOptimum, (std::uint64_t seed)) {
