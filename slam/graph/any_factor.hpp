@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "slam/graph/factors/gaussian_prior.hpp"
 #include "slam/graph/factors/motion_factors.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
 #include "slam/graph/factors/vector_prior.hpp"
@@ -15,7 +16,7 @@
 namespace corridor::graph {
 
 using AnyFactor = std::variant<PosePrior, RelativePose, ImuMotion, WheelMotion, BiasWalk,
-                               VelocityPrior, BiasPrior, WheelScalePrior>;
+                               VelocityPrior, BiasPrior, WheelScalePrior, GaussianPrior>;
 
 // A factor on its way into a graph, with the kernel that bounds its influence.
 struct NewFactor {

@@ -25,6 +25,11 @@
 
 namespace corridor::graph {
 
+// A type whose number of variables is known only at run time has kRows = Eigen::Dynamic, no kKinds,
+// and keys() as a vector.
+template <class F>
+inline constexpr bool kIsFixed = F::kRows != Eigen::Dynamic;
+
 template <class F>
 inline constexpr std::size_t kNumKeys = F::kKinds.size();
 
@@ -37,7 +42,10 @@ constexpr int first_column(std::size_t key) {
 }
 
 template <class F>
-inline constexpr int kNumColumns = first_column<F>(kNumKeys<F>);
+consteval int num_columns() {
+  if constexpr (kIsFixed<F>) return first_column<F>(kNumKeys<F>);
+  return Eigen::Dynamic;
+}
 
 // Of a class that is being defined these cannot be asked: FixedVector and FixedMatrix say the same.
 template <int kRows>
@@ -48,7 +56,7 @@ using FixedMatrix = Eigen::Matrix<double, kRows, kColumns>;
 template <class F>
 using Residual = FixedVector<F::kRows>;
 template <class F>
-using Jacobian = FixedMatrix<F::kRows, kNumColumns<F>>;
+using Jacobian = FixedMatrix<F::kRows, num_columns<F>()>;
 
 template <class F>
 double chi2_of(const F& factor, const Values& values) {

@@ -17,12 +17,12 @@ constexpr auto kAllTypes = std::make_index_sequence<std::variant_size_v<AnyFacto
 }  // namespace
 
 FactorId FactorGraph::add(NewFactor added) {
-  const FactorId id = places_.size();
+  const FactorId id = end_id_++;
   const auto type = static_cast<std::uint32_t>(added.factor.index());
   std::visit(
       [&]<class F>(F& factor) {
         auto& pool = std::get<Pool<F>>(pools_);
-        places_.push_back({type, static_cast<std::uint32_t>(pool.factors.size())});
+        places_.set(id, {type, static_cast<std::uint32_t>(pool.factors.size())});
         pool.factors.push_back(std::move(factor));
         pool.kernels.push_back(added.kernel);
         pool.ids.push_back(id);
@@ -46,7 +46,7 @@ void FactorGraph::remove(FactorId id) {
     pool.ids.pop_back();
   };
   change_pool(pools_, place.type, take_out, kAllTypes);
-  places_[id].type = kRemoved;
+  places_.erase(id);
   --num_factors_;
 }
 

@@ -11,6 +11,7 @@
 
 #include "slam/core/expect.hpp"
 #include "slam/graph/any_factor.hpp"
+#include "slam/graph/slot_range.hpp"
 
 namespace corridor::graph {
 
@@ -24,10 +25,10 @@ class FactorGraph {
   void set_kernel(FactorId id, const RobustKernel& kernel);
 
   [[nodiscard]] bool contains(FactorId id) const {
-    return id < places_.size() && places_[id].type != kRemoved;
+    return places_.has(id);
   }
   // Numbers given so far lie below this one.
-  [[nodiscard]] FactorId end_id() const { return places_.size(); }
+  [[nodiscard]] FactorId end_id() const { return end_id_; }
   [[nodiscard]] std::size_t num_factors() const { return num_factors_; }
 
   // Each requires contains(id).
@@ -77,9 +78,8 @@ class FactorGraph {
   struct PoolsOf<std::variant<F...>> {
     using Type = std::tuple<Pool<F>...>;
   };
-  static constexpr std::uint32_t kRemoved = ~0u;
   struct Place {
-    std::uint32_t type = kRemoved, index = 0;
+    std::uint32_t type = 0, index = 0;
   };
 
   template <std::size_t kType, class Visit>
@@ -92,7 +92,8 @@ class FactorGraph {
   }
 
   PoolsOf<AnyFactor>::Type pools_;
-  std::vector<Place> places_;  // by FactorId
+  SlotRange<Place> places_;  // by FactorId
+  FactorId end_id_ = 0;
   std::size_t num_factors_ = 0;
 };
 

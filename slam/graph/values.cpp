@@ -1,6 +1,8 @@
 #include "slam/graph/values.hpp"
 
+#include <algorithm>
 #include <string>
+#include <type_traits>
 
 namespace corridor::graph {
 namespace {
@@ -12,6 +14,21 @@ void for_each_kind(AllSlots& all, const Visit& visit) {
   std::apply([&](auto&... slots) { (visit(static_cast<VariableKind>(kind++), slots), ...); }, all);
 }
 
+// Calls visit with the place of that kind's slots among all, as a constant.
+template <class Visit>
+void with_slots(VariableKind kind, const Visit& visit) {
+  switch (kind) {
+    case VariableKind::kPose:
+      return visit(std::integral_constant<std::size_t, 0>());
+    case VariableKind::kVelocity:
+      return visit(std::integral_constant<std::size_t, 1>());
+    case VariableKind::kBias:
+      return visit(std::integral_constant<std::size_t, 2>());
+    case VariableKind::kWheelScale:
+      return visit(std::integral_constant<std::size_t, 3>());
+  }
+}
+
 void move(OrientedPose& pose, const double* delta) {
   pose = pose.plus({delta[0], delta[1], delta[2]});
 }
@@ -19,6 +36,17 @@ void move(OrientedPose& pose, const double* delta) {
 template <class Vector>
 void move(Vector& value, const double* delta) {
   value += Eigen::Map<const Vector>(delta);
+}
+
+void difference(const OrientedPose& pose, const OrientedPose& origin, double* delta) {
+  const Pose2::Tangent tau = pose.pose.minus(origin.pose);
+  std::copy(tau.begin(), tau.end(), delta);
+}
+
+template <class Vector>
+void difference(const Vector& value, const Vector& origin, double* delta) {
+  const Vector step = value - origin;
+  std::copy(step.begin(), step.end(), delta);
 }
 
 }  // namespace
@@ -34,70 +62,61 @@ OrientedPose OrientedPose::plus(const Pose2::Tangent& tau) const {
   return OrientedPose(Pose2(moved.x(), moved.y(), pose.theta_rad() + step.theta_rad()));
 }
 
-template <class T>
-bool Values::Slots<T>::set(std::uint32_t index, const T& value) {
-  if (values.empty()) first = index;
-  if (index < first) {
-    values.insert(values.begin(), first - index, value);
-    are_set.insert(are_set.begin(), first - index, false);
-    first = index;
-  }
-  const std::size_t slot = index - first;
-  if (slot >= values.size()) {
-    values.resize(slot + 1, value);
-    are_set.resize(slot + 1, false);
-  }
-  values[slot] = value;
-  const bool is_new = !are_set[slot];
-  are_set[slot] = true;
-  return is_new;
-}
-
-template <class T>
-void Values::set(Slots<T>& slots, std::uint32_t index, const T& value) {
-  if (slots.set(index, value)) ++num_values_;
+template <VariableKind kKind, class T>
+void Values::set(std::uint32_t index, const T& value) {
+  if (std::get<static_cast<std::size_t>(kKind)>(slots_).set(index, value)) ++num_values_;
 }
 
 void Values::set_pose(std::uint32_t index, const Pose2& T_map_base) {
   CORRIDOR_EXPECT(T_map_base.is_finite());
-  set(std::get<0>(slots_), index, OrientedPose(T_map_base));
+  set<VariableKind::kPose>(index, OrientedPose(T_map_base));
 }
 
 void Values::set_velocity(std::uint32_t index, const Eigen::Vector2d& velocity_mps) {
   CORRIDOR_EXPECT(velocity_mps.allFinite());
-  set(std::get<1>(slots_), index, velocity_mps);
+  set<VariableKind::kVelocity>(index, velocity_mps);
 }
 
 void Values::set_bias(std::uint32_t index, const Eigen::Vector3d& bias) {
   CORRIDOR_EXPECT(bias.allFinite());
-  set(std::get<2>(slots_), index, bias);
+  set<VariableKind::kBias>(index, bias);
 }
 
 void Values::set_wheel_scale(std::uint32_t index, double scale_ratio) {
   CORRIDOR_EXPECT(std::isfinite(scale_ratio));
-  set(std::get<3>(slots_), index, Eigen::Matrix<double, 1, 1>(scale_ratio));
+  set<VariableKind::kWheelScale>(index, Eigen::Matrix<double, 1, 1>(scale_ratio));
 }
 
 bool Values::contains(Key key) const {
   bool is_in = false;
-  for_each_kind(slots_, [&](VariableKind kind, const auto& slots) {
-    is_in |= kind == key.kind && slots.has(key.index);
-  });
+  with_slots(key.kind, [&](auto kind) { is_in = std::get<kind>(slots_).has(key.index); });
   return is_in;
 }
 
 void Values::retract(Key key, const double* delta) {
   CORRIDOR_EXPECT(contains(key));
-  for_each_kind(slots_, [&](VariableKind kind, auto& slots) {
-    if (kind == key.kind) move(slots.values[key.index - slots.first], delta);
+  with_slots(key.kind, [&](auto kind) { move(std::get<kind>(slots_)[key.index], delta); });
+}
+
+void Values::subtract(Key key, const Values& origin, double* delta) const {
+  CORRIDOR_EXPECT(contains(key) && origin.contains(key));
+  with_slots(key.kind, [&](auto kind) {
+    difference(std::get<kind>(slots_)[key.index], std::get<kind>(origin.slots_)[key.index], delta);
+  });
+}
+
+void Values::copy(Key key, const Values& other) {
+  CORRIDOR_EXPECT(other.contains(key));
+  with_slots(key.kind, [&](auto kind) {
+    set<static_cast<VariableKind>(kind.value)>(key.index, std::get<kind>(other.slots_)[key.index]);
   });
 }
 
 void Values::merge(const Values& other) {
   const auto take = [this](auto& slots, const auto& from) {
-    for (std::uint32_t i = 0; i < from.values.size(); ++i) {
-      if (from.are_set[i]) set(slots, from.first + i, from.values[i]);
-    }
+    from.for_each([&](std::size_t index, const auto& value) {
+      if (slots.set(index, value)) ++num_values_;
+    });
   };
   take(std::get<0>(slots_), std::get<0>(other.slots_));
   take(std::get<1>(slots_), std::get<1>(other.slots_));
@@ -105,13 +124,19 @@ void Values::merge(const Values& other) {
   take(std::get<3>(slots_), std::get<3>(other.slots_));
 }
 
+void Values::erase(Key key) {
+  CORRIDOR_EXPECT(contains(key));
+  with_slots(key.kind, [&](auto kind) { std::get<kind>(slots_).erase(key.index); });
+  --num_values_;
+}
+
 std::vector<Key> Values::keys() const {
   std::vector<Key> keys;
   keys.reserve(num_values_);
   for_each_kind(slots_, [&](VariableKind kind, const auto& slots) {
-    for (std::uint32_t i = 0; i < slots.values.size(); ++i) {
-      if (slots.are_set[i]) keys.push_back({kind, slots.first + i});
-    }
+    slots.for_each([&](std::size_t index, const auto&) {
+      keys.push_back({kind, static_cast<std::uint32_t>(index)});
+    });
   });
   return keys;
 }

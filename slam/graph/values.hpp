@@ -11,6 +11,7 @@
 #include "slam/core/expect.hpp"
 #include "slam/core/pose2.hpp"
 #include "slam/graph/key.hpp"
+#include "slam/graph/slot_range.hpp"
 
 namespace corridor::graph {
 
@@ -38,30 +39,15 @@ struct OrientedPose {
 };
 
 class Values {
-  // Indices are dense by convention: a slot for each from the lowest to the highest, empty where no
-  // variable has it.
-  template <class T>
-  struct Slots {
-    std::uint32_t first = 0;
-    std::vector<T> values;
-    std::vector<bool> are_set;
-
-    [[nodiscard]] bool has(std::uint32_t index) const {
-      return index >= first && index - first < are_set.size() && are_set[index - first];
-    }
-    // Requires has(index).
-    [[nodiscard]] const T& at(std::uint32_t index) const { return values[index - first]; }
-    // Makes the slot; true if it was empty.
-    bool set(std::uint32_t index, const T& value);
-  };
-  using AllSlots = std::tuple<Slots<OrientedPose>, Slots<Eigen::Vector2d>, Slots<Eigen::Vector3d>,
-                              Slots<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
+  // Indices are dense by convention.
+  using AllSlots = std::tuple<SlotRange<OrientedPose>, SlotRange<Eigen::Vector2d>, SlotRange<Eigen::Vector3d>,
+                              SlotRange<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
 
   template <VariableKind kKind>
   [[nodiscard]] const auto& get(std::uint32_t index) const {
     const auto& slots = std::get<static_cast<std::size_t>(kKind)>(slots_);
     CORRIDOR_EXPECT(slots.has(index));
-    return slots.at(index);
+    return slots[index];
   }
 
  public:
@@ -96,16 +82,23 @@ class Values {
   // value := value (+) delta: Pose2::plus for poses, a sum for the others. `delta` has
   // key.dimension() numbers.
   void retract(Key key, const double* delta);
+  // value (-) the value in `origin`, into key.dimension() numbers: retract of `origin` by it gives
+  // back the value. Both must hold the key.
+  void subtract(Key key, const Values& origin, double* delta) const;
+  // Sets or replaces one variable as in `other`, which must hold it.
+  void copy(Key key, const Values& other);
   // Takes over every variable of `other`.
   void merge(const Values& other);
+  // Requires contains(key).
+  void erase(Key key);
 
   // In ascending order (kind, index).
   [[nodiscard]] std::vector<Key> keys() const;
   [[nodiscard]] std::size_t size() const { return num_values_; }
 
  private:
-  template <class T>
-  void set(Slots<T>& slots, std::uint32_t index, const T& value);
+  template <VariableKind kKind, class T>
+  void set(std::uint32_t index, const T& value);
 
   AllSlots slots_;
   std::size_t num_values_ = 0;

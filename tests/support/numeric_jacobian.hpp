@@ -12,8 +12,9 @@ inline constexpr double kNumericStep = 1e-6;
 
 template <class F>
 graph::Jacobian<F> numeric_jacobian(const F& factor, const graph::Values& values) {
-  graph::Jacobian<F> jacobian;
   graph::Residual<F> plus, minus;
+  graph::Jacobian<F> jacobian;
+  factor.linearize(values, plus, jacobian);  // for its size
   int column = 0;
   for (const graph::Key key : factor.keys()) {
     for (int d = 0; d < key.dimension(); ++d, ++column) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "slam/backend/weighted_terms.hpp"
 
@@ -32,24 +33,24 @@ void NormalEquations::add_factor(graph::FactorId id, const graph::FactorGraph& g
 }
 
 template <class F>
-void NormalEquations::add_terms(graph::FactorId id, const graph::Residual<F>& r,
+void NormalEquations::add_terms(graph::FactorId id, const F& factor, const graph::Residual<F>& r,
                                 const graph::Jacobian<F>& J) {
   const Target* target = &targets_[first_target_[id]];
   const int* row = &rows_[first_row_[id]];
-  for_each_index<graph::kNumKeys<F>>([&](auto a) {
-    constexpr int kRowsOfA = graph::dimension_of(F::kKinds[a]);
-    const auto J_a = columns_of<F, a>(J);
-    gradient_.segment<kRowsOfA>(row[a]).noalias() += J_a.transpose() * r;
-    for_each_index<a + 1>([&](auto b) {
-      const auto J_b = columns_of<F, b>(J);
-      if (target->is_transposed) {
-        blocks_.add(target->slot, J_b.transpose().lazyProduct(J_a));
-      } else {
-        blocks_.add(target->slot, J_a.transpose().lazyProduct(J_b));
-      }
-      ++target;
-    });
-  });
+  for_each_block(
+      factor, J,
+      [&](std::size_t a, const auto& J_a) {
+        constexpr int kColumns = std::remove_cvref_t<decltype(J_a)>::ColsAtCompileTime;
+        gradient_.segment<kColumns>(row[a], J_a.cols()).noalias() += J_a.transpose() * r;
+      },
+      [&](std::size_t, std::size_t, const auto& J_a, const auto& J_b) {
+        if (target->is_transposed) {
+          blocks_.add(target->slot, J_b.transpose().lazyProduct(J_a));
+        } else {
+          blocks_.add(target->slot, J_a.transpose().lazyProduct(J_b));
+        }
+        ++target;
+      });
 }
 
 double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::Values& values) {
@@ -61,7 +62,7 @@ double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::
     graph::Residual<F> r;
     graph::Jacobian<F> J;
     cost += linearize_weighted(factor, kernel, values, r, J);
-    add_terms<F>(id, r, J);
+    add_terms(id, factor, r, J);
   });
   // What is not finite in a Jacobian is not in the gradient either.
   return gradient_.allFinite() ? cost : std::numeric_limits<double>::quiet_NaN();

@@ -42,7 +42,8 @@ class NormalEquations {
     bool is_transposed;
   };
   template <class F>
-  void add_terms(graph::FactorId id, const graph::Residual<F>& r, const graph::Jacobian<F>& J);
+  void add_terms(graph::FactorId id, const F& factor, const graph::Residual<F>& r,
+                 const graph::Jacobian<F>& J);
 
   linear::BlockMatrix blocks_;
   graph::VariableIndex index_;

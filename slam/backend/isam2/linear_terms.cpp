@@ -1,5 +1,7 @@
 #include "slam/backend/isam2/linear_terms.hpp"
 
+#include <type_traits>
+
 #include "slam/backend/weighted_terms.hpp"
 
 namespace corridor::backend {
@@ -11,14 +13,15 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
     graph::Residual<F> r;
     graph::Jacobian<F> J;
     front.add_chi2(linearize_weighted(factor, kernel, values, r, J));
-    for_each_index<graph::kNumKeys<F>>([&](auto a) {
-      const int row = tree.row_of(variables[a]);
-      const auto J_a = columns_of<F, a>(J);
-      front.add_gradient(row, (J_a.transpose() * r).eval());
-      for_each_index<a + 1>([&](auto b) {
-        front.add(row, tree.row_of(variables[b]), (J_a.transpose() * columns_of<F, b>(J)).eval());
-      });
-    });
+    for_each_block(
+        factor, J,
+        [&](std::size_t a, const auto& J_a) {
+          front.add_gradient(tree.row_of(variables[a]), (J_a.transpose() * r).eval());
+        },
+        [&](std::size_t a, std::size_t b, const auto& J_a, const auto& J_b) {
+          front.add(tree.row_of(variables[a]), tree.row_of(variables[b]),
+                    (J_a.transpose() * J_b).eval());
+        });
   });
 }
 
@@ -29,12 +32,15 @@ void add_information(const graph::FactorGraph& graph, graph::FactorId id,
     graph::Residual<F> r;
     graph::Jacobian<F> J;
     linearize_weighted(factor, kernel, values, r, J);
-    for_each_index<graph::kNumKeys<F>>([&](auto a) {
-      if (factor.keys()[a] != variable) return;
-      constexpr int kDimension = graph::dimension_of(F::kKinds[a]);
-      const auto J_a = columns_of<F, a>(J);
-      information.topLeftCorner<kDimension, kDimension>() += J_a.transpose() * J_a;
-    });
+    for_each_block(
+        factor, J,
+        [&](std::size_t a, const auto& J_a) {
+          if (factor.keys()[a] != variable) return;
+          constexpr int kColumns = std::remove_cvref_t<decltype(J_a)>::ColsAtCompileTime;
+          information.topLeftCorner<kColumns, kColumns>(J_a.cols(), J_a.cols()).noalias() +=
+              J_a.transpose() * J_a;
+        },
+        [](std::size_t, std::size_t, const auto&, const auto&) {});
   });
 }
 

@@ -45,6 +45,14 @@ Values random_values(Rng& rng) {
   return values;
 }
 
+GaussianPrior random_gaussian_prior(Rng& rng) {
+  Eigen::MatrixXd U(4, 6);
+  for (double& entry : U.reshaped()) entry = rng.normal();
+  Eigen::VectorXd offset(4);
+  for (double& entry : offset) entry = rng.normal();
+  return {{pose_key(0), velocity_key(1), wheel_scale_key(0)}, random_values(rng), U, offset};
+}
+
 std::vector<AnyFactor> one_of_each(Rng& rng) {
   const Eigen::Matrix3d root = square_root_information(random_information(rng));
   const auto relative = [&](RelativePoseError error) {
@@ -58,7 +66,8 @@ std::vector<AnyFactor> one_of_each(Rng& rng) {
           BiasWalk(0, 1, Eigen::Vector3d(0.1, 0.2, 0.3)),
           VelocityPrior(0, Eigen::Vector2d(1, 2), Eigen::Vector2d(0.5, 0.25)),
           BiasPrior(1, Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(0.5, 0.25, 1)),
-          WheelScalePrior(0, WheelScalePrior::Vector(0.0), WheelScalePrior::Vector(0.02))};
+          WheelScalePrior(0, WheelScalePrior::Vector(0.0), WheelScalePrior::Vector(0.02)),
+          random_gaussian_prior(rng)};
 }
 
 TEST(Factors, EveryTypeIsAmongThoseTested) {
@@ -130,6 +139,28 @@ RC_GTEST_PROP(SquareRootInformation, SquaresToTheInformation, (std::uint64_t see
   const Eigen::Matrix3d information = random_information(rng);
   const Eigen::Matrix3d root = square_root_information(information);
   RC_ASSERT((root.transpose() * root - information).norm() <= 1e-10 * information.norm());
+}
+
+RC_GTEST_PROP(GaussianPrior, IsTheQuadraticFormThatItIsMadeFrom, (std::uint64_t seed)) {
+  Rng rng(seed);
+  Eigen::MatrixXd half(6, 6);
+  for (double& entry : half.reshaped()) entry = rng.normal();
+  half.row(5) = half.row(4);  // rank 5
+  const Eigen::MatrixXd H = half.transpose() * half;
+  Eigen::VectorXd g = H * Eigen::VectorXd::LinSpaced(6, -1, 1);
+  const Values origin = random_values(rng);
+  const GaussianPrior factor =
+      GaussianPrior::from_information({bias_key(0), bias_key(1)}, origin, H, g);
+  const auto chi2_at = [&](const Eigen::VectorXd& delta) {
+    Values moved = origin;
+    moved.retract(bias_key(0), delta.data());
+    moved.retract(bias_key(1), delta.data() + 3);
+    return chi2_of(factor, moved);
+  };
+  const Eigen::VectorXd delta = Eigen::VectorXd::LinSpaced(6, 2, 0.5);
+  const double expected = delta.dot(H * delta) + 2 * g.dot(delta);
+  RC_ASSERT(std::abs(chi2_at(delta) - chi2_at(Eigen::VectorXd::Zero(6)) - expected) <
+            1e-8 * (1 + std::abs(expected)));
 }
 
 TEST(SquareRootInformation, LeavesAnUnseenDirectionOut) {
