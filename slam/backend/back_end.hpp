@@ -57,6 +57,10 @@ class BackEnd {
                                            const graph::Values& new_values) = 0;
   // Solves again from the present estimate, until converged or the iteration limit.
   virtual BackEndReport solve() = 0;
+  // Takes known variables out for good and keeps, as a prior on their neighbours, what their factors
+  // said, linearised at the present estimate. Later factors may not name them. An error where a
+  // back-end does not offer it, or where a variable is not determined.
+  virtual Result<void> marginalize(std::span<const graph::Key> keys);
   // Overwrites the estimate of known variables, e.g. with a front end's own.
   virtual void set_values(const graph::Values& values) = 0;
 

@@ -1,4 +1,4 @@
-// Numbers variables 0, 1, 2 ... in the order in which they arrive: the rows of a linear system.
+// The numbers that a solver gives to variables: the rows of its linear system.
 #pragma once
 
 #include <array>
@@ -7,37 +7,34 @@
 
 #include "slam/core/expect.hpp"
 #include "slam/graph/key.hpp"
+#include "slam/graph/slot_range.hpp"
 
 namespace corridor::graph {
 
 class VariableIndex {
  public:
-  // Returns its number. Requires !contains(key).
-  int add(Key key) {
-    CORRIDOR_EXPECT(!contains(key));
-    auto& numbers = numbers_[kind_of(key)];
-    if (key.index >= numbers.size()) numbers.resize(key.index + 1, kNone);
-    numbers[key.index] = static_cast<int>(keys_.size());
-    keys_.push_back(key);
-    return numbers[key.index];
+  // Requires !contains(key); the number must be free.
+  void add(Key key, int number) {
+    CORRIDOR_EXPECT(number >= 0 && numbers_[kind_of(key)].set(key.index, number));
+    const auto slot = static_cast<std::size_t>(number);
+    if (slot >= keys_.size()) keys_.resize(slot + 1);
+    keys_[slot] = key;
   }
-  [[nodiscard]] bool contains(Key key) const {
-    const auto& numbers = numbers_[kind_of(key)];
-    return key.index < numbers.size() && numbers[key.index] != kNone;
-  }
+  // Requires contains(key). Its number may be given to another.
+  void remove(Key key) { numbers_[kind_of(key)].erase(key.index); }
+  [[nodiscard]] bool contains(Key key) const { return numbers_[kind_of(key)].has(key.index); }
   // Requires contains(key).
   [[nodiscard]] int of(Key key) const {
     CORRIDOR_EXPECT(contains(key));
     return numbers_[kind_of(key)][key.index];
   }
-  // By number.
+  // By number; of numbers that are free what they were last.
   [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
 
  private:
-  static constexpr int kNone = -1;
   static std::size_t kind_of(Key key) { return static_cast<std::size_t>(key.kind); }
 
-  std::array<std::vector<int>, kNumVariableKinds> numbers_;
+  std::array<SlotRange<int>, kNumVariableKinds> numbers_;
   std::vector<Key> keys_;
 };
 

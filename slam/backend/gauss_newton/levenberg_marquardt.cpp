@@ -160,12 +160,6 @@ class LeastSquares final : public BackEnd {
 
 }  // namespace
 
-std::string to_text(SolveStatus status) {
-  constexpr const char* kNames[] = {"converged", "max_iterations", "rank_deficient", "not_finite",
-                                    "empty"};
-  return kNames[static_cast<std::size_t>(status)];
-}
-
 std::unique_ptr<BackEnd> make_least_squares(const LeastSquaresParams& params) {
   return std::make_unique<LeastSquares>(params);
 }

@@ -9,8 +9,7 @@
 
 namespace corridor::backend {
 void NormalEquations::add_variable(graph::Key key) {
-  index_.add(key);
-  blocks_.add_variable(key.dimension());
+  index_.add(key, blocks_.add_variable(key.dimension()));
 }
 
 void NormalEquations::add_factor(graph::FactorId id, const graph::FactorGraph& graph) {

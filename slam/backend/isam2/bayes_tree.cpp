@@ -23,6 +23,16 @@ double flops_of(double num_pivots, double num_below) {
 
 int BayesTree::add_variable(int dimension) {
   CORRIDOR_EXPECT(dimension > 0);
+  const auto reused =
+      std::find_if(free_variables_.rbegin(), free_variables_.rend(),
+                   [&](int v) { return dimensions_[to_index(v)] == dimension; });
+  if (reused != free_variables_.rend()) {
+    const int variable = *reused;
+    free_variables_.erase(std::next(reused).base());
+    clear_delta(variable);
+    waiting_.push_back(variable);
+    return variable;
+  }
   const int variable = static_cast<int>(dimensions_.size());
   dimensions_.push_back(dimension);
   first_rows_.push_back(static_cast<int>(deltas_.size()));
@@ -38,6 +48,7 @@ void BayesTree::forget(int variable) {
   CORRIDOR_EXPECT(clique_of(variable) == kNone);
   std::erase(waiting_, variable);
   std::erase(detached_, variable);
+  free_variables_.push_back(variable);
 }
 
 void BayesTree::clear_delta(int variable) {
@@ -229,7 +240,7 @@ void BayesTree::drop_new_cliques() {
   for (const int number : new_cliques_) drop(number);
   std::erase_if(roots_, [&](int root) { return at(root).num_frontals == 0; });
   new_cliques_.clear();
-  waiting_ = detached_;
+  postpone();
 }
 
 double BayesTree::chi2() const {

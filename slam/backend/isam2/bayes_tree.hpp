@@ -45,7 +45,7 @@ class BayesTree {
 
   // Its number. It waits for the next detach().
   int add_variable(int dimension);
-  // A variable that no factor holds any more; it must be detached. Its number stays unused.
+  // A variable that no factor holds any more; it must be detached. Its number is given again.
   void forget(int variable);
 
   // The clique that eliminates the variable, and all above.
@@ -61,6 +61,8 @@ class BayesTree {
   void detach();
   // The variables to eliminate: those of the cliques taken out and those that wait, ascending.
   [[nodiscard]] std::span<const int> detached() const { return detached_; }
+  // Instead of attach(): the detached variables wait for the next detach().
+  void postpone() { waiting_ = detached_; }
   // Plans cliques for the detached variables. factors: sets of variables that share a factor, all
   // among the detached ones. last: those that are eliminated last.
   void attach(const VariableSets& factors, std::span<const int> last);
@@ -123,6 +125,7 @@ class BayesTree {
 
   // By variable.
   std::vector<int> dimensions_, first_rows_, clique_of_, rows_;
+  std::vector<int> free_variables_;
   std::vector<int> changed_in_;  // number of the pass that last gave it another delta
   std::vector<double> deltas_;
   // By clique.

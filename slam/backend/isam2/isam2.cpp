@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "slam/backend/isam2/bayes_tree.hpp"
 #include "slam/backend/isam2/linear_terms.hpp"
+#include "slam/backend/isam2/marginalization.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/graph/slot_range.hpp"
 #include "slam/graph/variable_index.hpp"
 
 namespace corridor::backend {
@@ -66,7 +70,7 @@ class Isam2 final : public BackEnd {
     report.chi2 = report.chi2_initial = graph_.cost(estimate());
     report.status = SolveStatus::kMaxIterations;
     while (report.num_iterations < params_.max_iterations) {
-      for (const Key key : index_.keys()) mark(index_.of(key));
+      for (const Key key : linearization_.keys()) mark(index_.of(key));
       relinearize(report);
       if (!eliminate(report)) break;
       tree_.solve_all();
@@ -93,11 +97,34 @@ class Isam2 final : public BackEnd {
     is_estimate_current_ = false;
   }
 
+  Result<void> marginalize(std::span<const Key> keys) override {
+    std::set<FactorId> held;
+    for (const Key key : keys) {
+      if (!index_.contains(key)) {
+        return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key), "marginalisation");
+      }
+      const auto& ids = factors_of_[to_index(index_.of(key))];
+      held.insert(ids.begin(), ids.end());
+    }
+    const std::vector<FactorId> removed(held.begin(), held.end());
+    const auto prior = marginal_prior(graph_, estimate(), removed, keys);
+    if (!prior) return tl::make_unexpected(prior.error());
+    for (const Key key : keys) tree_.touch_everywhere(index_.of(key));
+    for (const FactorId id : removed) remove_factor(id);
+    tree_.detach();
+    for (const Key key : keys) forget(key);
+    tree_.postpone();
+    if (*prior) add_factor(**prior);
+    return {};
+  }
+
   const Values& estimate() const override {
     if (!is_estimate_current_) {
       tree_.solve_all();
       estimate_ = linearization_;
-      for (const Key key : index_.keys()) estimate_.retract(key, tree_.delta(index_.of(key)));
+      for (const Key key : linearization_.keys()) {
+        estimate_.retract(key, tree_.delta(index_.of(key)));
+      }
       is_estimate_current_ = true;
     }
     return estimate_;
@@ -137,11 +164,16 @@ class Isam2 final : public BackEnd {
       forget_information_around(index_.of(key));
       return;
     }
-    index_.add(key);
-    tree_.add_variable(key.dimension());
-    factors_of_.emplace_back();
-    information_.emplace_back();
-    is_marked_.push_back(false);
+    const int variable = tree_.add_variable(key.dimension());
+    index_.add(key, variable);
+    if (to_index(variable) >= factors_of_.size()) {
+      factors_of_.resize(to_index(variable) + 1);
+      information_.resize(to_index(variable) + 1);
+      is_marked_.resize(to_index(variable) + 1, false);
+      birth_of_.resize(to_index(variable) + 1);
+    }
+    information_[to_index(variable)].is_known = false;
+    birth_of_[to_index(variable)] = num_births_++;
   }
 
   FactorId add_factor(NewFactor factor) {
@@ -151,14 +183,23 @@ class Isam2 final : public BackEnd {
       variables_.push_back(index_.of(key));
     }
     const FactorId id = graph_.add(std::move(factor));
-    variables_of_.add(variables_);
-    is_collected_.push_back(false);
+    variables_of_.set(id, variables_);
     for (const int variable : variables_) {
       factors_of_[to_index(variable)].push_back(id);
       tree_.touch(variable);
       information_[to_index(variable)].is_known = false;
     }
     return id;
+  }
+
+  void forget(Key key) {
+    const int variable = index_.of(key);
+    if (is_marked_[to_index(variable)]) std::erase(marked_, variable);
+    is_marked_[to_index(variable)] = false;
+    tree_.forget(variable);
+    index_.remove(key);
+    linearization_.erase(key);
+    estimate_.erase(key);
   }
 
   void remove_factor(FactorId id) {
@@ -168,6 +209,7 @@ class Isam2 final : public BackEnd {
       tree_.touch(variable);
       information_[to_index(variable)].is_known = false;
     }
+    variables_of_.erase(id);
     is_estimate_current_ = false;
   }
 
@@ -202,18 +244,29 @@ class Isam2 final : public BackEnd {
     sets_.clear();
     for (const int variable : tree_.detached()) {
       for (const FactorId id : factors_of_[to_index(variable)]) {
-        if (is_collected_[id]) continue;
-        const std::span<const int> variables = variables_of_[id];
+        const std::vector<int>& variables = variables_of_[id];
+        // Once only: when its variable of the lowest number comes.
+        if (*std::min_element(variables.begin(), variables.end()) != variable) continue;
         const bool is_whole = std::all_of(variables.begin(), variables.end(), [&](int v) {
           return tree_.clique_of(v) == BayesTree::kNone;
         });
         if (!is_whole) continue;
-        is_collected_[id] = true;
         collected_.push_back(id);
         sets_.add(variables);
       }
     }
-    for (const FactorId id : collected_) is_collected_[id] = false;
+  }
+
+  // Of the variables that are eliminated, those that came last.
+  std::span<const int> newest() {
+    const std::span<const int> detached = tree_.detached();
+    newest_.assign(detached.begin(), detached.end());
+    const std::size_t num_last = std::min(newest_.size(), to_index(params_.num_last));
+    std::nth_element(newest_.begin(), newest_.end() - static_cast<std::ptrdiff_t>(num_last),
+                     newest_.end(), [&](int a, int b) {
+                       return birth_of_[to_index(a)] < birth_of_[to_index(b)];
+                     });
+    return std::span(newest_).last(num_last);
   }
 
   // False: rank deficient; the report says where.
@@ -223,8 +276,7 @@ class Isam2 final : public BackEnd {
     if (detached.empty()) return true;
     report.num_eliminated += static_cast<std::int64_t>(detached.size());
     collect_factors();
-    const std::size_t num_last = std::min(detached.size(), to_index(params_.num_last));
-    tree_.attach(sets_, detached.last(num_last));
+    tree_.attach(sets_, newest());
     for (int k = 0; k < tree_.num_new_cliques(); ++k) {
       Front& front = tree_.open(k);
       for (const int set : tree_.factors_of(k)) {
@@ -267,7 +319,7 @@ class Isam2 final : public BackEnd {
 
   BackEndReport finished(BackEndReport& report) {
     report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
-    report.num_variables = static_cast<std::int64_t>(index_.keys().size());
+    report.num_variables = static_cast<std::int64_t>(linearization_.size());
     is_estimate_current_ = false;
     return std::move(report);
   }
@@ -289,15 +341,16 @@ class Isam2 final : public BackEnd {
   std::vector<std::vector<FactorId>> factors_of_;
   std::vector<Information> information_;
   std::vector<bool> is_marked_;
+  std::vector<std::int64_t> birth_of_;  // when it came, counted in variables
+  std::int64_t num_births_ = 0;
   std::vector<int> marked_;
   double largest_step_ = 0;
   // By factor.
-  VariableSets variables_of_;
-  std::vector<bool> is_collected_;
+  graph::SlotRange<std::vector<int>> variables_of_;
   // Of the update under way.
   std::vector<FactorId> collected_;
   VariableSets sets_;
-  std::vector<int> variables_;
+  std::vector<int> variables_, newest_;
 };
 
 }  // namespace

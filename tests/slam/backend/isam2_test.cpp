@@ -69,12 +69,15 @@ class LinearChain {
  public:
   explicit LinearChain(std::uint64_t seed) : rng_(seed) {}
 
-  void grow(std::vector<NewFactor>& factors, graph::Values& values) {
+  // oldest: the first variable that may still be tied to.
+  void grow(std::vector<NewFactor>& factors, graph::Values& values, std::uint32_t oldest = 0) {
     const std::uint32_t i = num_++;
     values.set_bias(i, random());
     factors.push_back(graph::BiasPrior(i, random(), Eigen::Vector3d::Constant(2)));
     if (i > 0) factors.push_back(tie(i - 1, i));
-    if (i > 2) factors.push_back(tie(static_cast<std::uint32_t>(rng_.uniform(0, i - 1)), i));
+    if (i > oldest + 2) {
+      factors.push_back(tie(static_cast<std::uint32_t>(rng_.uniform(oldest, i - 1)), i));
+    }
   }
   Rng& rng() { return rng_; }
 
@@ -119,6 +122,69 @@ RC_GTEST_PROP(Isam2, EqualsTheBatchSolutionAfterEveryUpdateOfALinearGraph, (std:
     RC_ASSERT(std::abs(report.chi2 - batch->graph().chi2(batch->estimate())) <
               1e-9 * (1 + report.chi2));
   }
+}
+
+// Of a linear graph a marginal prior says exactly what the factors said.
+RC_GTEST_PROP(Isam2, MarginalisingChangesNoEstimateOfTheOthers, (std::uint64_t seed)) {
+  const auto incremental = make_isam2(exact_solution());
+  const auto batch = exact_batch();
+  LinearChain chain(seed);
+  std::uint32_t num_gone = 0;
+  for (std::uint32_t step = 0; step < 30; ++step) {
+    std::vector<NewFactor> factors;
+    graph::Values values;
+    chain.grow(factors, values, num_gone);
+    incremental->update(factors, values, {});
+    batch->update(factors, values, {});
+    if (step > 4 && step % 3 == 0) {
+      const std::vector<graph::Key> oldest = {graph::bias_key(num_gone),
+                                              graph::bias_key(num_gone + 1)};
+      RC_ASSERT(incremental->marginalize(oldest).has_value());
+      num_gone += 2;
+    }
+    RC_ASSERT(incremental->estimate().size() == step + 1 - num_gone);
+    RC_ASSERT(largest_bias_difference(incremental->estimate(), batch->estimate()) < 1e-8);
+    const auto newest = graph::bias_key(step);
+    RC_ASSERT((*incremental->marginal_covariance(newest) - *batch->marginal_covariance(newest))
+                  .norm() < 1e-8);
+  }
+}
+
+TEST(Isam2, AWindowThatMovesAlongDoesNotGrow) {
+  const auto solver = make_isam2({});
+  constexpr std::uint32_t kLag = 20;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    graph::Values values;
+    values.set_pose(i, Pose2(i, 0, 0));
+    std::vector<NewFactor> factors;
+    if (i == 0) {
+      factors.push_back(prior(0));
+    } else {
+      factors.push_back(edge(i - 1, i, {1, 0, 0}));
+      if (i % 7 == 6) factors.push_back(edge(i - 6, i, {6, 0, 0}));
+    }
+    const BackEndReport report = solver->update(std::move(factors), values, {});
+    ASSERT_NE(report.status, SolveStatus::kRankDeficient);
+    ASSERT_LE(report.num_variables, kLag + 1);
+    ASSERT_LE(report.num_factors, 2 * kLag);
+    if (i < kLag) continue;
+    const std::vector<graph::Key> oldest = {pose_key(i - kLag)};
+    ASSERT_TRUE(solver->marginalize(oldest).has_value());
+  }
+  EXPECT_NEAR(solver->estimate().pose(999).x_m(), 999, 1e-6);
+  EXPECT_FALSE(solver->estimate().contains(pose_key(900)));
+}
+
+TEST(Isam2, AVariableThatNothingDeterminesIsNotMarginalised) {
+  const auto solver = make_isam2({});
+  graph::Values values;
+  values.set_pose(0, {});
+  values.set_pose(1, {1, 0, 0});
+  (void)solver->add({prior(0)}, values);
+  const std::vector<graph::Key> loose = {pose_key(1)}, unknown = {pose_key(5)};
+  EXPECT_FALSE(solver->marginalize(unknown).has_value());
+  EXPECT_TRUE(solver->marginalize(loose).has_value());  // nothing is known, nothing is lost
+  EXPECT_EQ(solver->update({}, {}, {}).num_variables, 1);
 }
 
 RC_GTEST_PROP(Isam2, CovariancesAreThoseOfTheBatchSolution, (std::uint64_t seed)) {
