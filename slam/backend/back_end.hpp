@@ -33,8 +33,8 @@ struct BackEndReport {
   double chi2 = 0;
   std::int64_t num_factors = 0;
   std::int64_t num_variables = 0;
-  std::int64_t num_relinearized = 0;  // variables moved by this update, summed over iterations
-  std::int64_t num_eliminated = 0;    // variables eliminated anew, summed over iterations
+  std::int64_t num_relinearized = 0;       // variables moved by this update, summed over iterations
+  std::int64_t num_eliminated = 0;         // variables eliminated anew, summed over iterations
   std::optional<graph::Key> undetermined;  // with kRankDeficient: a variable that nothing holds
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
 };
@@ -57,9 +57,9 @@ class BackEnd {
                                            const graph::Values& new_values) = 0;
   // Solves again from the present estimate, until converged or the iteration limit.
   virtual BackEndReport solve() = 0;
-  // Takes known variables out for good and keeps, as a prior on their neighbours, what their factors
-  // said, linearised at the present estimate. Later factors may not name them. An error where a
-  // back-end does not offer it, or where a variable is not determined.
+  // Takes known variables out for good and keeps, as a prior on their neighbours, what their
+  // factors said, linearised at the present estimate. Later factors may not name them. An error
+  // where a back-end does not offer it, or where a variable is not determined.
   virtual Result<void> marginalize(std::span<const graph::Key> keys);
   // Overwrites the estimate of known variables, e.g. with a front end's own.
   virtual void set_values(const graph::Values& values) = 0;

@@ -16,7 +16,8 @@ template <std::size_t kCount, class Visit>
 void for_each_index(const Visit& visit) {
   [&]<std::size_t... k>(std::index_sequence<k...>) {
     (visit(std::integral_constant<std::size_t, k>()), ...);
-  }(std::make_index_sequence<kCount>());
+  }
+  (std::make_index_sequence<kCount>());
 }
 
 // Calls visit_key(a, J_a) for every key of a factor with its columns of the Jacobian, and

@@ -47,14 +47,14 @@ LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
   return choice;
 }
 
-graph::RelativePose lidar_factor(const Interval& interval, const Eigen::Matrix3d& sqrt_information) {
-  return graph::RelativePose(graph::pose_key(interval.anchor),
-                                               graph::pose_key(interval.j),
-                                               interval.match->T_map_base, sqrt_information);
+graph::RelativePose lidar_factor(const Interval& interval,
+                                 const Eigen::Matrix3d& sqrt_information) {
+  return graph::RelativePose(graph::pose_key(interval.anchor), graph::pose_key(interval.j),
+                             interval.match->T_map_base, sqrt_information);
 }
 
 graph::RelativePose scalar_lidar_factor(const Interval& interval, double sigma_factor,
-                              const FusionParams& params) {
+                                        const FusionParams& params) {
   const double translation = 1 / (params.lidar_sigma_m * sigma_factor);
   const double rotation = 1 / (params.lidar_sigma_rad * sigma_factor);
   return lidar_factor(interval, Eigen::Vector3d(translation, translation, rotation).asDiagonal());
@@ -62,27 +62,26 @@ graph::RelativePose scalar_lidar_factor(const Interval& interval, double sigma_f
 
 graph::RelativePose tracked_factor(const Interval& interval) {
   const Eigen::Vector3d weight(1 / kTrackedSigma_m, 1 / kTrackedSigma_m, 1 / kTrackedSigma_rad);
-  return graph::RelativePose(graph::pose_key(interval.i),
-                                               graph::pose_key(interval.j), interval.tracked_T_i_j,
-                                               weight.asDiagonal().toDenseMatrix());
+  return graph::RelativePose(graph::pose_key(interval.i), graph::pose_key(interval.j),
+                             interval.tracked_T_i_j, weight.asDiagonal().toDenseMatrix());
 }
 
-graph::WheelMotion wheel_factor(const Interval& interval, const WheelNoise& noise, double sigma_factor) {
+graph::WheelMotion wheel_factor(const Interval& interval, const WheelNoise& noise,
+                                double sigma_factor) {
   Eigen::Vector3d weight(1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.rotation_sigma_rad * sigma_factor));
   if (interval.imu && interval.imu->unmeasured_s == 0)
     weight(2) = 0;  // the gyro knows the turn better than unequal wheels
-  return graph::WheelMotion(
-      graph::pose_key(interval.i), graph::pose_key(interval.j), graph::wheel_scale_key(0),
-      *interval.wheel_T_i_j, weight.asDiagonal());
+  return graph::WheelMotion(graph::pose_key(interval.i), graph::pose_key(interval.j),
+                            graph::wheel_scale_key(0), *interval.wheel_T_i_j, weight.asDiagonal());
 }
 
 void add_imu_factors(const Interval& interval, const ImuModel& imu,
                      std::vector<NewFactor>& factors) {
   factors.push_back(graph::ImuMotion(interval.i, interval.j, *interval.imu));
-  factors.push_back(graph::BiasWalk(
-      interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
+  factors.push_back(
+      graph::BiasWalk(interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
 }
 
 SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotModel& robot,
@@ -179,8 +178,8 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
 }
 
 void add_first_factors(const FusionParams& params, std::vector<NewFactor>& factors) {
-  factors.push_back(graph::PosePrior(graph::pose_key(0), Pose2(),
-                                     Eigen::Matrix3d::Identity() / kGaugeSigma));
+  factors.push_back(
+      graph::PosePrior(graph::pose_key(0), Pose2(), Eigen::Matrix3d::Identity() / kGaugeSigma));
   const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : kFixedScaleSigma;
   using Scale = graph::WheelScalePrior::Vector;
   factors.push_back(graph::WheelScalePrior(0, Scale(0.0), Scale(scale_sigma)));
@@ -188,9 +187,8 @@ void add_first_factors(const FusionParams& params, std::vector<NewFactor>& facto
 
 void add_imu_priors(std::uint32_t key, const FusionParams& params,
                     std::vector<NewFactor>& factors) {
-  factors.push_back(
-      graph::VelocityPrior(key, Eigen::Vector2d::Zero(),
-                           Eigen::Vector2d::Constant(params.initial_velocity_sigma_mps)));
+  factors.push_back(graph::VelocityPrior(
+      key, Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(params.initial_velocity_sigma_mps)));
   factors.push_back(graph::BiasPrior(
       key, Eigen::Vector3d::Zero(),
       {params.gyro_bias_sigma_radps, params.accel_bias_sigma_mps2, params.accel_bias_sigma_mps2}));

@@ -22,8 +22,8 @@ using AnyFactor = std::variant<PosePrior, RelativePose, ImuMotion, WheelMotion, 
 struct NewFactor {
   // A factor alone is meant exactly as it is.
   template <class F>
-    requires std::is_constructible_v<AnyFactor, F>
-  NewFactor(F&& f, const RobustKernel& k = {})  // NOLINT(google-explicit-constructor)
+  requires std::is_constructible_v<AnyFactor, F> NewFactor(
+      F&& f, const RobustKernel& k = {})  // NOLINT(google-explicit-constructor)
       : factor(std::forward<F>(f)), kernel(k) {}
 
   AnyFactor factor;

@@ -68,20 +68,19 @@ std::string_view FactorGraph::name(FactorId id) const {
 }
 
 const RobustKernel& FactorGraph::kernel(FactorId id) const {
-  return visit(id, [](const auto&, const RobustKernel& kernel) -> const RobustKernel& {
-    return kernel;
-  });
+  return visit(
+      id, [](const auto&, const RobustKernel& kernel) -> const RobustKernel& { return kernel; });
 }
 
 double FactorGraph::chi2(FactorId id, const Values& values) const {
-  return visit(id, [&](const auto& factor, const RobustKernel&) { return chi2_of(factor, values); });
+  return visit(id,
+               [&](const auto& factor, const RobustKernel&) { return chi2_of(factor, values); });
 }
 
 double FactorGraph::chi2(const Values& values) const {
   double sum = 0;
-  for_each([&](FactorId, const auto& factor, const RobustKernel&) {
-    sum += chi2_of(factor, values);
-  });
+  for_each(
+      [&](FactorId, const auto& factor, const RobustKernel&) { sum += chi2_of(factor, values); });
   return sum;
 }
 

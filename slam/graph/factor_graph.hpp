@@ -24,9 +24,7 @@ class FactorGraph {
   void remove(FactorId id);
   void set_kernel(FactorId id, const RobustKernel& kernel);
 
-  [[nodiscard]] bool contains(FactorId id) const {
-    return places_.has(id);
-  }
+  [[nodiscard]] bool contains(FactorId id) const { return places_.has(id); }
   // Numbers given so far lie below this one.
   [[nodiscard]] FactorId end_id() const { return end_id_; }
   [[nodiscard]] std::size_t num_factors() const { return num_factors_; }

@@ -8,10 +8,10 @@
 namespace corridor::graph {
 
 enum class KernelKind {
-  kNone,           // rho = s
-  kHuber,          // rho = s for s <= k^2, 2 k sqrt(s) - k^2 beyond [Huber1964]
-  kCauchy,         // rho = k^2 log(1 + s / k^2)
-  kGemanMcClure,   // rho = s / (1 + s / k^2), at most k^2 [GemanMcClure1985]
+  kNone,          // rho = s
+  kHuber,         // rho = s for s <= k^2, 2 k sqrt(s) - k^2 beyond [Huber1964]
+  kCauchy,        // rho = k^2 log(1 + s / k^2)
+  kGemanMcClure,  // rho = s / (1 + s / k^2), at most k^2 [GemanMcClure1985]
 };
 
 // "none", "huber", "cauchy", "geman-mcclure".

@@ -40,8 +40,9 @@ struct OrientedPose {
 
 class Values {
   // Indices are dense by convention.
-  using AllSlots = std::tuple<SlotRange<OrientedPose>, SlotRange<Eigen::Vector2d>, SlotRange<Eigen::Vector3d>,
-                              SlotRange<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
+  using AllSlots =
+      std::tuple<SlotRange<OrientedPose>, SlotRange<Eigen::Vector2d>, SlotRange<Eigen::Vector3d>,
+                 SlotRange<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
 
   template <VariableKind kKind>
   [[nodiscard]] const auto& get(std::uint32_t index) const {

@@ -10,8 +10,8 @@ namespace corridor::backend {
 namespace {
 
 using graph::FactorId;
-using graph::NewFactor;
 using graph::Key;
+using graph::NewFactor;
 using graph::Values;
 
 class LeastSquares final : public BackEnd {

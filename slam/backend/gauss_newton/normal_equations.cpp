@@ -56,13 +56,13 @@ double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::
   blocks_.set_zero();
   gradient_.setZero(blocks_.num_rows());
   double cost = 0;
-  graph.for_each([&]<class F>(graph::FactorId id, const F& factor,
-                              const graph::RobustKernel& kernel) {
-    graph::Residual<F> r;
-    graph::Jacobian<F> J;
-    cost += linearize_weighted(factor, kernel, values, r, J);
-    add_terms(id, factor, r, J);
-  });
+  graph.for_each(
+      [&]<class F>(graph::FactorId id, const F& factor, const graph::RobustKernel& kernel) {
+        graph::Residual<F> r;
+        graph::Jacobian<F> J;
+        cost += linearize_weighted(factor, kernel, values, r, J);
+        add_terms(id, factor, r, J);
+      });
   // What is not finite in a Jacobian is not in the gradient either.
   return gradient_.allFinite() ? cost : std::numeric_limits<double>::quiet_NaN();
 }

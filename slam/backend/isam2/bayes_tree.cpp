@@ -23,9 +23,8 @@ double flops_of(double num_pivots, double num_below) {
 
 int BayesTree::add_variable(int dimension) {
   CORRIDOR_EXPECT(dimension > 0);
-  const auto reused =
-      std::find_if(free_variables_.rbegin(), free_variables_.rend(),
-                   [&](int v) { return dimensions_[to_index(v)] == dimension; });
+  const auto reused = std::find_if(free_variables_.rbegin(), free_variables_.rend(),
+                                   [&](int v) { return dimensions_[to_index(v)] == dimension; });
   if (reused != free_variables_.rend()) {
     const int variable = *reused;
     free_variables_.erase(std::next(reused).base());
@@ -103,8 +102,8 @@ void BayesTree::drop(int number) {
   Clique& clique = at(number);
   for (const int variable : clique.frontals()) clique_of_[to_index(variable)] = kNone;
   num_flops_ -= clique.num_flops;
-  memory_.give_back(clique.memory, Front::memory_size(clique.front.num_pivots(),
-                                                      clique.front.num_below()));
+  memory_.give_back(clique.memory,
+                    Front::memory_size(clique.front.num_pivots(), clique.front.num_below()));
   clique.variables.clear();
   clique.num_frontals = 0;
   clique.first_child = clique.next_sibling = clique.parent = kNone;
@@ -138,7 +137,8 @@ void BayesTree::attach(const VariableSets& factors, std::span<const int> last) {
   std::partial_sum(first_factor_of_.begin(), first_factor_of_.end(), first_factor_of_.begin());
   factors_of_.resize(factors.size());
   for (std::size_t k = factors.size(); k-- > 0;) {
-    factors_of_[to_index(--first_factor_of_[to_index(order_.clique_of_set(k)) + 1])] = static_cast<int>(k);
+    factors_of_[to_index(--first_factor_of_[to_index(order_.clique_of_set(k)) + 1])] =
+        static_cast<int>(k);
   }
   // Each start moved to the one before it.
   first_factor_of_.erase(first_factor_of_.begin());
@@ -181,7 +181,8 @@ int BayesTree::make_clique(const linear::Supernode& node) {
 
 std::span<const int> BayesTree::factors_of(int k) const {
   const int first = first_factor_of_[to_index(k)];
-  return std::span(factors_of_).subspan(to_index(first), to_index(first_factor_of_[to_index(k) + 1] - first));
+  return std::span(factors_of_)
+      .subspan(to_index(first), to_index(first_factor_of_[to_index(k) + 1] - first));
 }
 
 Front& BayesTree::open(int k) {

@@ -28,8 +28,8 @@ class BayesTree {
     int num_frontals = 0;
     int parent = kNone, first_child = kNone, next_sibling = kNone;
     bool is_touched = false;
-    bool is_solved = false;           // since it was eliminated
-    bool are_children_due = false;    // solved without its children
+    bool is_solved = false;         // since it was eliminated
+    bool are_children_due = false;  // solved without its children
     double* memory = nullptr;
     Front front;
     double num_flops = 0;

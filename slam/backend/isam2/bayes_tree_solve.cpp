@@ -15,8 +15,8 @@ using Column = Eigen::Map<const Eigen::VectorXd>;
 
 }  // namespace
 
-// x_f = L11^-T (y - L21^T x_s). is_changed: false if z = y - L21^T x_s is within `threshold` of what
-// it was at the last solution, so that nothing was done.
+// x_f = L11^-T (y - L21^T x_s). is_changed: false if z = y - L21^T x_s is within `threshold` of
+// what it was at the last solution, so that nothing was done.
 void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
   Front& front = clique.front;
   const int num_pivots = front.num_pivots(), num_below = front.num_below();
@@ -62,7 +62,8 @@ void BayesTree::solve_changed(double threshold) {
     const bool is_below_changed = std::ranges::any_of(
         clique.separator(), [&](int v) { return changed_in_[to_index(v)] == pass_; });
     bool is_changed = false;
-    if (is_below_changed || !clique.is_solved || threshold < 0) solve(clique, threshold, is_changed);
+    if (is_below_changed || !clique.is_solved || threshold < 0)
+      solve(clique, threshold, is_changed);
     if (!is_changed && !is_below_changed && !clique.are_children_due) continue;
     clique.are_children_due = false;
     for (int child = clique.first_child; child != kNone; child = at(child).next_sibling) {

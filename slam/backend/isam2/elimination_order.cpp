@@ -26,8 +26,8 @@ void EliminationOrder::plan(std::span<const int> variables, const VariableSets& 
   clique_of_place_.resize(n);
   for (std::size_t c = 0; c < plan_.supernodes.size(); ++c) {
     const linear::Supernode& node = plan_.supernodes[c];
-    std::fill(clique_of_place_.begin() + node.first_place, clique_of_place_.begin() + node.end_place,
-              static_cast<int>(c));
+    std::fill(clique_of_place_.begin() + node.first_place,
+              clique_of_place_.begin() + node.end_place, static_cast<int>(c));
   }
   clique_of_set_.resize(sets.size());
   std::size_t member = 0;

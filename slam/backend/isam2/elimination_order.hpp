@@ -32,8 +32,8 @@ class EliminationOrder {
   std::span<const int> variables_;
   std::vector<int> local_;  // of every variable of the graph its place in `variables`
   linear::BlockPattern pattern_;
-  std::vector<int> local_members_;              // of the sets
-  std::vector<int> first_set_of_, sets_of_;     // sets of every local variable, in compressed rows
+  std::vector<int> local_members_;           // of the sets
+  std::vector<int> first_set_of_, sets_of_;  // sets of every local variable, in compressed rows
   std::vector<int> seen_by_, groups_, order_, local_dimensions_, clique_of_place_;
   std::vector<int> clique_of_set_;
   linear::EliminationPlan plan_;

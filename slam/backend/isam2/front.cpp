@@ -42,7 +42,8 @@ void Front::add_update(const Front& child, std::span<const RowRun> runs) {
   for (std::size_t j = 0; j < runs.size(); ++j) {
     const RowRun& columns = runs[j];
     for (int c = 0; c < columns.length; ++c) {
-      const double* const from = child.update_column(child_pivots + columns.from + c) + child_pivots;
+      const double* const from =
+          child.update_column(child_pivots + columns.from + c) + child_pivots;
       const int column = columns.to + c;
       double* const to = column_of(column);
       for (int r = c; r < columns.length; ++r) to[columns.to + r] += from[columns.from + r];

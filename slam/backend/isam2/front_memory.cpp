@@ -21,8 +21,7 @@ SizeClass class_of(std::size_t size) {
   if (lines <= 4) return {lines, lines * kDoublesPerLine};
   const auto exponent = std::bit_width(lines - 1) - 3;  // lines in (4, 8] * 2^exponent
   const std::size_t quarters = ((lines - 1) >> exponent) + 1;
-  return {4 * exponent + quarters,
-          (quarters << exponent) * kDoublesPerLine};
+  return {4 * exponent + quarters, (quarters << exponent) * kDoublesPerLine};
 }
 
 }  // namespace

@@ -263,9 +263,8 @@ class Isam2 final : public BackEnd {
     newest_.assign(detached.begin(), detached.end());
     const std::size_t num_last = std::min(newest_.size(), to_index(params_.num_last));
     std::nth_element(newest_.begin(), newest_.end() - static_cast<std::ptrdiff_t>(num_last),
-                     newest_.end(), [&](int a, int b) {
-                       return birth_of_[to_index(a)] < birth_of_[to_index(b)];
-                     });
+                     newest_.end(),
+                     [&](int a, int b) { return birth_of_[to_index(a)] < birth_of_[to_index(b)]; });
     return std::span(newest_).last(num_last);
   }
 
@@ -280,8 +279,8 @@ class Isam2 final : public BackEnd {
     for (int k = 0; k < tree_.num_new_cliques(); ++k) {
       Front& front = tree_.open(k);
       for (const int set : tree_.factors_of(k)) {
-        add_linearized(graph_, collected_[to_index(set)], linearization_, sets_[to_index(set)], tree_,
-                       front);
+        add_linearized(graph_, collected_[to_index(set)], linearization_, sets_[to_index(set)],
+                       tree_, front);
       }
       if (tree_.close()) continue;
       report.status = SolveStatus::kRankDeficient;

@@ -18,6 +18,7 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
 
 // Adds J_v^T J_v of the factor to the top left block of the variable's dimension.
 void add_information(const graph::FactorGraph& graph, graph::FactorId id,
-                     const graph::Values& values, graph::Key variable, Eigen::Matrix3d& information);
+                     const graph::Values& values, graph::Key variable,
+                     Eigen::Matrix3d& information);
 
 }  // namespace corridor::backend

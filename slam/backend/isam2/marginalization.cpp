@@ -58,9 +58,10 @@ void add_factor(const graph::FactorGraph& graph, graph::FactorId id, const graph
 
 }  // namespace
 
-Result<std::optional<graph::GaussianPrior>> marginal_prior(
-    const graph::FactorGraph& graph, const graph::Values& values,
-    std::span<const graph::FactorId> factors, std::span<const graph::Key> eliminated) {
+Result<std::optional<graph::GaussianPrior>> marginal_prior(const graph::FactorGraph& graph,
+                                                           const graph::Values& values,
+                                                           std::span<const graph::FactorId> factors,
+                                                           std::span<const graph::Key> eliminated) {
   const FrontRows rows = rows_of(graph, factors, eliminated);
   if (rows.kept.empty()) return std::nullopt;
   std::vector<double> memory(Front::memory_size(rows.num_pivots, rows.num_below));

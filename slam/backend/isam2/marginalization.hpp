@@ -13,8 +13,9 @@ namespace corridor::backend {
 // are marginalised out (Schur complement). `factors` has to hold every factor on an eliminated
 // variable. Nothing if there are no other variables; an error if the eliminated ones are not
 // determined even where the others are held.
-Result<std::optional<graph::GaussianPrior>> marginal_prior(
-    const graph::FactorGraph& graph, const graph::Values& values,
-    std::span<const graph::FactorId> factors, std::span<const graph::Key> eliminated);
+Result<std::optional<graph::GaussianPrior>> marginal_prior(const graph::FactorGraph& graph,
+                                                           const graph::Values& values,
+                                                           std::span<const graph::FactorId> factors,
+                                                           std::span<const graph::Key> eliminated);
 
 }  // namespace corridor::backend

@@ -37,8 +37,9 @@ ImuTerms imu_terms(const std::array<Key, 5>& keys, const motion::ImuDelta& delta
   ImuTerms terms;
   terms.R_i_transposed = pose_i.rotation().transpose();
   terms.velocity_change = terms.R_i_transposed * (values.velocity(keys[4].index) - velocity_i);
-  terms.displacement = terms.R_i_transposed * (pose_j.translation_m() - pose_i.pose.translation_m() -
-                                               velocity_i * d.duration_s);
+  terms.displacement =
+      terms.R_i_transposed *
+      (pose_j.translation_m() - pose_i.pose.translation_m() - velocity_i * d.duration_s);
   terms.error(0) = wrap_angle(pose_j.theta_rad() - pose_i.pose.theta_rad() - d.theta_rad);
   terms.error.segment<2>(1) = terms.velocity_change - d.velocity_mps;
   terms.error.segment<2>(3) = terms.displacement - d.position_m;

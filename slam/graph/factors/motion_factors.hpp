@@ -18,8 +18,9 @@ class ImuMotion {
  public:
   static constexpr std::string_view kName = "imu_motion";
   static constexpr int kRows = 5;
-  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kVelocity, VariableKind::kBias,
-                                      VariableKind::kPose, VariableKind::kVelocity};
+  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kVelocity,
+                                        VariableKind::kBias, VariableKind::kPose,
+                                        VariableKind::kVelocity};
 
   // Index i and j name pose, velocity and bias of one keyframe. The delta must last longer than 0
   // s.
@@ -42,7 +43,8 @@ class WheelMotion {
  public:
   static constexpr std::string_view kName = "wheel_motion";
   static constexpr int kRows = 3;
-  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kPose, VariableKind::kWheelScale};
+  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kPose,
+                                        VariableKind::kWheelScale};
 
   WheelMotion(Key pose_i, Key pose_j, Key scale, const Pose2& wheel_T_i_j,
               const Eigen::Matrix3d& sqrt_information);

@@ -11,9 +11,9 @@ constexpr double kZeroEigenvalueRatio = 1e-15;
 
 // What both forms of the error need of two poses and a measurement z.
 struct RelativeTerms {
-  Eigen::Vector2d t_i_j;        // R_i^T (t_j - t_i)
-  double cosine_ij, sine_ij;    // of R_i^T R_j
-  Eigen::Vector3d components;   // of D = z^-1 * T_i_j
+  Eigen::Vector2d t_i_j;       // R_i^T (t_j - t_i)
+  double cosine_ij, sine_ij;   // of R_i^T R_j
+  Eigen::Vector3d components;  // of D = z^-1 * T_i_j
   double cosine_D, sine_D;
 };
 
@@ -21,8 +21,7 @@ RelativeTerms relative_terms(const OrientedPose& i, const OrientedPose& j, const
   RelativeTerms terms;
   terms.t_i_j = i.turn_back(j.pose.translation_m() - i.pose.translation_m());
   terms.components.head<2>() = z.turn_back(terms.t_i_j - z.pose.translation_m());
-  terms.components(2) =
-      wrap_angle(j.pose.theta_rad() - i.pose.theta_rad() - z.pose.theta_rad());
+  terms.components(2) = wrap_angle(j.pose.theta_rad() - i.pose.theta_rad() - z.pose.theta_rad());
   terms.cosine_ij = i.cosine * j.cosine + i.sine * j.sine;
   terms.sine_ij = i.cosine * j.sine - i.sine * j.cosine;
   terms.cosine_D = z.cosine * terms.cosine_ij + z.sine * terms.sine_ij;
@@ -63,16 +62,13 @@ void PosePrior::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3
 
 RelativePose::RelativePose(Key pose_i, Key pose_j, const Pose2& T_i_j,
                            const Eigen::Matrix3d& sqrt_information, RelativePoseError error)
-    : keys_{pose_i, pose_j},
-      measured_(T_i_j),
-      sqrt_information_(sqrt_information),
-      error_(error) {}
+    : keys_{pose_i, pose_j}, measured_(T_i_j), sqrt_information_(sqrt_information), error_(error) {}
 
 void RelativePose::residual(const Values& values, FixedVector<3>& r) const {
   const RelativeTerms terms =
       relative_terms(values.oriented(keys_[0].index), values.oriented(keys_[1].index), measured_);
-  r = sqrt_information_ * (error_ == RelativePoseError::kComponents ? terms.components
-                                                                    : logarithm(terms.components));
+  r = sqrt_information_ *
+      (error_ == RelativePoseError::kComponents ? terms.components : logarithm(terms.components));
 }
 
 void RelativePose::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 6>& J) const {

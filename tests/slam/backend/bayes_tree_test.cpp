@@ -54,13 +54,12 @@ class LinearProblem {
       if (factor.variables.size() > 1) ties.push_back(id);
     }
     if (ties.empty()) return;
-    const int id = ties[static_cast<std::size_t>(rng_.uniform(0, 1) * 0.999 * static_cast<double>(ties.size()))];
+    const int id = ties[static_cast<std::size_t>(rng_.uniform(0, 1) * 0.999 *
+                                                 static_cast<double>(ties.size()))];
     for (const int variable : factors_.at(id).variables) tree_.touch(variable);
     factors_.erase(id);
   }
-  int random_variable() {
-    return static_cast<int>(rng_.uniform(0, 0.999) * num_variables());
-  }
+  int random_variable() { return static_cast<int>(rng_.uniform(0, 0.999) * num_variables()); }
   void add_factor(const std::vector<int>& variables) {
     int num_columns = 0;
     for (const int variable : variables) num_columns += tree_.dimension(variable);
@@ -210,7 +209,8 @@ RC_GTEST_PROP(BayesTree, KeepsItsInvariantsAfterEveryRandomUpdate, (std::uint64_
       const auto& above = tree.clique(clique.parent).variables;
       for (const int v : clique.separator()) RC_ASSERT(std::ranges::count(above, v) == 1);
       int num_times = 0;
-      for (int c = tree.clique(clique.parent).first_child; c >= 0; c = tree.clique(c).next_sibling) {
+      for (int c = tree.clique(clique.parent).first_child; c >= 0;
+           c = tree.clique(c).next_sibling) {
         num_times += c == number ? 1 : 0;
       }
       RC_ASSERT(num_times == 1);
@@ -260,7 +260,8 @@ RC_GTEST_PROP(BayesTree, APathSolvedAloneIsExactAndTheRestFollowsLater, (std::ui
   }
 }
 
-// Each whitened row is within the threshold, so that all of them are within its share of sqrt(rows).
+// Each whitened row is within the threshold, so that all of them are within its share of
+// sqrt(rows).
 RC_GTEST_PROP(BayesTree, WildfireLeavesNoRowFurtherOffThanItsThreshold, (std::uint64_t seed)) {
   constexpr double kThreshold = 0.05;
   LinearProblem problem(seed);

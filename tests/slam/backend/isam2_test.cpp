@@ -109,8 +109,8 @@ RC_GTEST_PROP(Isam2, EqualsTheBatchSolutionAfterEveryUpdateOfALinearGraph, (std:
     chain.grow(factors, values);
     std::vector<graph::FactorId> removed;
     if (step % 5 == 4) {
-      removed.push_back(ties[static_cast<std::size_t>(
-          chain.rng().uniform(0, 0.999) * static_cast<double>(ties.size()))]);
+      removed.push_back(ties[static_cast<std::size_t>(chain.rng().uniform(0, 0.999) *
+                                                      static_cast<double>(ties.size()))]);
       std::erase(ties, removed.front());
     }
     const BackEndReport report = incremental->update(factors, values, removed);
@@ -145,8 +145,9 @@ RC_GTEST_PROP(Isam2, MarginalisingChangesNoEstimateOfTheOthers, (std::uint64_t s
     RC_ASSERT(incremental->estimate().size() == step + 1 - num_gone);
     RC_ASSERT(largest_bias_difference(incremental->estimate(), batch->estimate()) < 1e-8);
     const auto newest = graph::bias_key(step);
-    RC_ASSERT((*incremental->marginal_covariance(newest) - *batch->marginal_covariance(newest))
-                  .norm() < 1e-8);
+    RC_ASSERT(
+        (*incremental->marginal_covariance(newest) - *batch->marginal_covariance(newest)).norm() <
+        1e-8);
   }
 }
 

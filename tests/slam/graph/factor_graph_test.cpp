@@ -50,8 +50,8 @@ RC_GTEST_PROP(FactorGraph, NumbersNameTheSameFactorAfterAnyAdditionsAndRemovals,
       continue;
     }
     const auto value = static_cast<double>(graph.end_id());
-    const NewFactor added = step % 2 == 0 ? NewFactor(velocity_prior(0, value))
-                                          : NewFactor(bias_prior(0, value));
+    const NewFactor added =
+        step % 2 == 0 ? NewFactor(velocity_prior(0, value)) : NewFactor(bias_prior(0, value));
     expected.emplace(graph.add(added), name_of(added.factor));
   }
   RC_ASSERT(graph.num_factors() == expected.size());
@@ -74,8 +74,7 @@ TEST(FactorGraph, TheCostBoundsAFactorWithAKernelAndChi2DoesNot) {
   FactorGraph graph;
   Values values;
   values.set_velocity(0, {10, 0});
-  const FactorId id =
-      graph.add({velocity_prior(0, 0), RobustKernel{KernelKind::kHuber, 2}});
+  const FactorId id = graph.add({velocity_prior(0, 0), RobustKernel{KernelKind::kHuber, 2}});
   EXPECT_DOUBLE_EQ(graph.chi2(values), 100);
   EXPECT_DOUBLE_EQ(graph.cost(values), 2 * 2 * 10 - 4);
   graph.set_kernel(id, {KernelKind::kGemanMcClure, 10});

@@ -32,7 +32,8 @@ TEST(Values, TakesIndicesInAnyOrder) {
   for (const std::uint32_t index : {7u, 3u, 9u, 3u}) values.set_pose(index, {1.0 * index, 0, 0});
   EXPECT_EQ(values.size(), 3u);
   for (const std::uint32_t index : {3u, 7u, 9u}) EXPECT_EQ(values.pose(index).x_m(), index);
-  for (const std::uint32_t index : {0u, 4u, 8u, 10u}) EXPECT_FALSE(values.contains(pose_key(index)));
+  for (const std::uint32_t index : {0u, 4u, 8u, 10u})
+    EXPECT_FALSE(values.contains(pose_key(index)));
 }
 
 TEST(Values, SettingAgainReplaces) {
