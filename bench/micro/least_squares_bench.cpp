@@ -34,8 +34,7 @@ Problem make_problem(std::uint32_t num_poses) {
   std::vector<Pose2> true_poses{Pose2()};
   Pose2 T_map_base;
   problem.values.set_pose(0, T_map_base);
-  problem.factors.push_back(
-      graph::PosePrior(graph::pose_key(0), T_map_base, sqrt_information));
+  problem.factors.push_back(graph::PosePrior(graph::pose_key(0), T_map_base, sqrt_information));
   for (std::uint32_t index = 1; index < num_poses; ++index) {
     const Pose2 T_i_j(1, 0, index % 5 == 0 ? 1.57 : 0.0);
     true_poses.push_back(true_poses.back() * T_i_j);
@@ -46,9 +45,9 @@ Problem make_problem(std::uint32_t num_poses) {
         graph::pose_key(index - 1), graph::pose_key(index), measured, sqrt_information));
     if (index % 20 != 0) continue;
     const Pose2 T_old_new = true_poses[index - 20].between(true_poses[index]);
-    problem.factors.push_back(
-        graph::RelativePose(graph::pose_key(index - 20), graph::pose_key(index),
-                                              with_noise(T_old_new, rng), sqrt_information));
+    problem.factors.push_back(graph::RelativePose(graph::pose_key(index - 20),
+                                                  graph::pose_key(index),
+                                                  with_noise(T_old_new, rng), sqrt_information));
   }
   return problem;
 }

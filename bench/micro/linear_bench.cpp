@@ -1,16 +1,12 @@
-// Linear solvers on the normal equations of a Manhattan-like world: a robot that walks the streets
-// of a grid, with a closure wherever it stands again where it stood. Time of every stage, with
-// flops, Gflop/s and nonzeros of the factor.
+// Linear solvers on the normal equations of a Manhattan-like walk. Time of every stage, with flops,
+// Gflop/s and nonzeros of the factor.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "bench/micro/manhattan_walk.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/linear/block_cholesky.hpp"
 #include "slam/linear/front_layout.hpp"
@@ -21,44 +17,18 @@ namespace corridor::linear {
 namespace {
 
 constexpr int kNumPoses = 3500;
-// With these numbers the graph has 5000 edges and 12 Mflop of block factorisation; M3500 5500
-// and 9.
-constexpr int kHalfWidth = 25;             // of the square of crossings; at its edge it turns round
-constexpr double kTurnProbability = 0.25;  // at every crossing, left or right alike
-constexpr double kClosureProbability = 0.9;
-
-using Edge = std::pair<int, int>;  // the later pose first
-
-std::vector<Edge> manhattan_edges(Rng& rng) {
-  constexpr std::array<std::array<int, 2>, 4> kHeadings{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  std::map<std::array<int, 2>, int> last_visit;  // pose that stood at a crossing last
-  std::vector<Edge> edges;
-  std::array<int, 2> crossing{};
-  std::size_t heading = 0;
-  for (int pose = 0; pose < kNumPoses; ++pose) {
-    if (pose > 0) edges.emplace_back(pose, pose - 1);
-    const auto visited = last_visit.find(crossing);
-    if (visited != last_visit.end() && rng.uniform() < kClosureProbability) {
-      edges.emplace_back(pose, visited->second);
-    }
-    last_visit[crossing] = pose;
-    if (rng.uniform() < kTurnProbability) heading = (heading + (rng.uniform() < 0.5 ? 1 : 3)) % 4;
-    const auto ahead = [&](std::size_t axis) { return crossing[axis] + kHeadings[heading][axis]; };
-    if (std::max(std::abs(ahead(0)), std::abs(ahead(1))) > kHalfWidth) heading = (heading + 2) % 4;
-    crossing = {ahead(0), ahead(1)};
-  }
-  return edges;
-}
 
 // H = sum J^T J with random J, and a prior on the first pose.
 struct NormalEquationsOfAWalk {
-  std::vector<Edge> edges;
+  std::vector<std::pair<int, int>> edges;  // the later pose first
   BlockMatrix H;
   Eigen::VectorXd b;
 
   NormalEquationsOfAWalk() {
     Rng rng(1);
-    edges = manhattan_edges(rng);
+    for (const auto& [i, j] : micro::walk_manhattan(rng, kNumPoses).edges) {
+      edges.emplace_back(static_cast<int>(j), static_cast<int>(i));
+    }
     for (int pose = 0; pose < kNumPoses; ++pose) H.add_variable(3);
     for (const auto& [i, j] : edges) H.slot(i, j);
     H.set_zero();
