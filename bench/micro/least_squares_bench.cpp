@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "slam/backend/ceres/ceres_back_end.hpp"
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
@@ -52,12 +53,13 @@ Problem make_problem(std::uint32_t num_poses) {
   return problem;
 }
 
-void solve(benchmark::State& state, const backend::LeastSquaresParams& params) {
+template <class MakeBackEnd>
+void solve(benchmark::State& state, const MakeBackEnd& make) {
   int num_iterations = 0;
   for (auto _ : state) {
     state.PauseTiming();
     Problem problem = make_problem(static_cast<std::uint32_t>(state.range(0)));
-    const auto solver = backend::make_least_squares(params);
+    const auto solver = make();
     solver->add(std::move(problem.factors), problem.values);
     state.ResumeTiming();
     const backend::BackEndReport report = solver->solve();
@@ -67,8 +69,23 @@ void solve(benchmark::State& state, const backend::LeastSquaresParams& params) {
   state.counters["solver_iterations"] = num_iterations;
 }
 
-void gauss_newton(benchmark::State& state) { solve(state, {}); }
-void levenberg_marquardt(benchmark::State& state) { solve(state, {.use_damping = true}); }
+void gauss_newton(benchmark::State& state) {
+  solve(state, [] { return backend::make_least_squares({}); });
+}
+void levenberg_marquardt(benchmark::State& state) {
+  solve(state, [] { return backend::make_least_squares({.use_damping = true}); });
+}
+void ceres(benchmark::State& state) {
+  solve(state, [] { return backend::make_ceres({}); });
+}
+void ceres_tuned(benchmark::State& state) {
+  solve(state, [] { return backend::make_ceres(backend::tuned_ceres_params()); });
+}
+void ceres_tuned_on_cholmod(benchmark::State& state) {
+  backend::CeresParams params = backend::tuned_ceres_params();
+  params.sparse_library = "SUITE_SPARSE";
+  solve(state, [&] { return backend::make_ceres(params); });
+}
 BENCHMARK(gauss_newton)
     ->Name("backend/gauss_newton")
     ->Arg(100)
@@ -76,6 +93,17 @@ BENCHMARK(gauss_newton)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(levenberg_marquardt)
     ->Name("backend/levenberg")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(ceres)->Name("backend/ceres")->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(ceres_tuned)
+    ->Name("backend/ceres_tuned")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(ceres_tuned_on_cholmod)
+    ->Name("backend/ceres_tuned_on_cholmod")
     ->Arg(100)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond);

@@ -20,35 +20,35 @@ void for_each_index(const Visit& visit) {
   (std::make_index_sequence<kCount>());
 }
 
-// Calls visit_key(a, J_a) for every key of a factor with its columns of the Jacobian, and
-// visit_pair(a, b, J_a, J_b) for every pair with b <= a, b ascending within a. Sizes are constants
-// where the type has them.
+// Calls visit(a, J_a) for every key of a factor with its columns of the Jacobian. Sizes are
+// constants where the type has them.
+template <class F, class Visit>
+void for_each_key(const F& factor, const graph::Jacobian<F>& J, const Visit& visit) {
+  if constexpr (graph::kIsFixed<F>) {
+    for_each_index<graph::kNumKeys<F>>([&](auto a) {
+      visit(a, J.template middleCols<graph::dimension_of(F::kKinds[a])>(graph::first_column<F>(a)));
+    });
+  } else {
+    Eigen::Index column = 0;
+    for (std::size_t a = 0; a < factor.keys().size(); ++a) {
+      const auto J_a = J.middleCols(column, factor.keys()[a].dimension());
+      visit(a, J_a);
+      column += J_a.cols();
+    }
+  }
+}
+
+// Calls visit_key as for_each_key() does, and visit_pair(a, b, J_a, J_b) for every pair with
+// b <= a, b ascending within a.
 template <class F, class VisitKey, class VisitPair>
 void for_each_block(const F& factor, const graph::Jacobian<F>& J, const VisitKey& visit_key,
                     const VisitPair& visit_pair) {
-  if constexpr (graph::kIsFixed<F>) {
-    const auto columns_of = [&J](auto key) {
-      return J.template middleCols<graph::dimension_of(F::kKinds[key])>(
-          graph::first_column<F>(key));
-    };
-    for_each_index<graph::kNumKeys<F>>([&](auto a) {
-      visit_key(a, columns_of(a));
-      for_each_index<a + 1>([&](auto b) { visit_pair(a, b, columns_of(a), columns_of(b)); });
+  for_each_key(factor, J, [&](std::size_t a, const auto& J_a) {
+    visit_key(a, J_a);
+    for_each_key(factor, J, [&](std::size_t b, const auto& J_b) {
+      if (b <= a) visit_pair(a, b, J_a, J_b);
     });
-  } else {
-    Eigen::Index column_a = 0;
-    for (std::size_t a = 0; a < factor.keys().size(); ++a) {
-      const auto J_a = J.middleCols(column_a, factor.keys()[a].dimension());
-      visit_key(a, J_a);
-      Eigen::Index column_b = 0;
-      for (std::size_t b = 0; b <= a; ++b) {
-        const auto J_b = J.middleCols(column_b, factor.keys()[b].dimension());
-        visit_pair(a, b, J_a, J_b);
-        column_b += J_b.cols();
-      }
-      column_a += J_a.cols();
-    }
-  }
+  });
 }
 
 // Linearises; r and J are scaled by the square root of the kernel's weight. Returns the cost.

@@ -26,7 +26,7 @@
 namespace corridor::graph {
 
 // A type whose number of variables is known only at run time has kRows = Eigen::Dynamic, no kKinds,
-// and keys() as a vector.
+// num_rows(), and keys() as a vector.
 template <class F>
 inline constexpr bool kIsFixed = F::kRows != Eigen::Dynamic;
 
@@ -57,6 +57,14 @@ template <class F>
 using Residual = FixedVector<F::kRows>;
 template <class F>
 using Jacobian = FixedMatrix<F::kRows, num_columns<F>()>;
+
+template <class F>
+int num_rows(const F& factor) {
+  if constexpr (kIsFixed<F>)
+    return F::kRows;
+  else
+    return factor.num_rows();
+}
 
 template <class F>
 double chi2_of(const F& factor, const Values& values) {

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "slam/core/expect.hpp"
@@ -56,9 +57,12 @@ class BlockMatrix {
     using Plain = typename Derived::PlainObject;
     const Place& place = place_of(slot);
     CORRIDOR_EXPECT(summand.rows() == place.num_rows && summand.cols() == place.num_columns);
-    Eigen::Map<Plain, Eigen::Unaligned, Eigen::OuterStride<>>(values_.data() + place.offset,
-                                                              place.num_rows, place.num_columns,
-                                                              Eigen::OuterStride<>(place.stride))
+    // A row of constant size is row-major to Eigen: its entries are a stride apart.
+    using Stride =
+        std::conditional_t<Plain::IsRowMajor, Eigen::InnerStride<>, Eigen::OuterStride<>>;
+    static_assert(!Plain::IsRowMajor || Plain::RowsAtCompileTime == 1);
+    Eigen::Map<Plain, Eigen::Unaligned, Stride>(values_.data() + place.offset, place.num_rows,
+                                                place.num_columns, Stride(place.stride))
         .noalias() += summand;
   }
 

@@ -65,6 +65,7 @@ const std::vector<Door>& doors() {
       {"lz4", {"datasets/formats/bag/bag_chunk"}},
       {"open3d/", {"bench/metrics/map_cloud"}},
       {"ceres/", {"slam/backend/ceres/"}},
+      {"glog/", {"slam/backend/ceres/"}},
       {"cholmod", {"slam/linear/"}},
       {"amd.h", {"slam/linear/minimum_degree"}},
       {"ccolamd", {"slam/linear/"}},

@@ -32,15 +32,12 @@ void add_information(const graph::FactorGraph& graph, graph::FactorId id,
     graph::Residual<F> r;
     graph::Jacobian<F> J;
     linearize_weighted(factor, kernel, values, r, J);
-    for_each_block(
-        factor, J,
-        [&](std::size_t a, const auto& J_a) {
-          if (factor.keys()[a] != variable) return;
-          constexpr int kColumns = std::remove_cvref_t<decltype(J_a)>::ColsAtCompileTime;
-          information.topLeftCorner<kColumns, kColumns>(J_a.cols(), J_a.cols()).noalias() +=
-              J_a.transpose() * J_a;
-        },
-        [](std::size_t, std::size_t, const auto&, const auto&) {});
+    for_each_key(factor, J, [&](std::size_t a, const auto& J_a) {
+      if (factor.keys()[a] != variable) return;
+      constexpr int kColumns = std::remove_cvref_t<decltype(J_a)>::ColsAtCompileTime;
+      information.topLeftCorner<kColumns, kColumns>(J_a.cols(), J_a.cols()).noalias() +=
+          J_a.transpose() * J_a;
+    });
   });
 }
 

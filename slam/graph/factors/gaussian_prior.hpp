@@ -27,6 +27,7 @@ class GaussianPrior {
                                         const Eigen::MatrixXd& H, const Eigen::VectorXd& g);
 
   [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
+  [[nodiscard]] int num_rows() const { return static_cast<int>(offset_.rows()); }
   void linearize(const Values& values, Eigen::VectorXd& r, Eigen::MatrixXd& J) const;
   void residual(const Values& values, Eigen::VectorXd& r) const;
 

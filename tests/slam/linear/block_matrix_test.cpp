@@ -65,6 +65,20 @@ TEST(BlockMatrix, AddsBlocksOfConstantSize) {
   EXPECT_EQ(matrix.block(slot), 3 * summand);
 }
 
+TEST(BlockMatrix, AddsARowOfConstantSizeAcrossTheColumns) {
+  BlockMatrix matrix;
+  matrix.add_variable(3);
+  matrix.add_variable(1);
+  matrix.add_variable(2);
+  const std::size_t slot = matrix.slot(1, 0);
+  matrix.slot(2, 0);
+  matrix.set_zero();
+  matrix.add(slot, Eigen::RowVector3d(4, 5, 6));
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(6, 6);
+  expected.row(3).head<3>() << 4, 5, 6;
+  EXPECT_EQ(Eigen::MatrixXd(matrix.scalars()), expected);
+}
+
 TEST(BlockMatrix, ASlotIsMadeOnce) {
   BlockMatrix matrix;
   matrix.add_variable(3);
