@@ -43,9 +43,9 @@ void for_each_key(const F& factor, const graph::Jacobian<F>& J, const Visit& vis
 template <class F, class VisitKey, class VisitPair>
 void for_each_block(const F& factor, const graph::Jacobian<F>& J, const VisitKey& visit_key,
                     const VisitPair& visit_pair) {
-  for_each_key(factor, J, [&](std::size_t a, const auto& J_a) {
+  for_each_key(factor, J, [&](auto a, const auto& J_a) {
     visit_key(a, J_a);
-    for_each_key(factor, J, [&](std::size_t b, const auto& J_b) {
+    for_each_key(factor, J, [&](auto b, const auto& J_b) {
       if (b <= a) visit_pair(a, b, J_a, J_b);
     });
   });
