@@ -24,9 +24,11 @@ class SlotRange {
   bool set(std::size_t number, const T& value) {
     if (slots_.empty()) first_ = number;
     if (number < first_) {
-      slots_.insert(slots_.begin(), first_ - number, value);
-      are_set_.insert(are_set_.begin(), first_ - number, false);
-      first_ = number;
+      // As many again at least, so that descending numbers do not move all of them every time.
+      const std::size_t gap = std::max(first_ - number, std::min(first_, slots_.size()));
+      slots_.insert(slots_.begin(), gap, value);
+      are_set_.insert(are_set_.begin(), gap, false);
+      first_ -= gap;
       num_empty_ = 0;
     }
     const std::size_t slot = number - first_;

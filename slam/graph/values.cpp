@@ -98,6 +98,13 @@ void Values::retract(Key key, const double* delta) {
   with_slots(key.kind, [&](auto kind) { move(std::get<kind>(slots_)[key.index], delta); });
 }
 
+void Values::retract(std::span<const Key> keys, const double* deltas) {
+  for (const Key key : keys) {
+    retract(key, deltas);
+    deltas += key.dimension();
+  }
+}
+
 void Values::subtract(Key key, const Values& origin, double* delta) const {
   CORRIDOR_EXPECT(contains(key) && origin.contains(key));
   with_slots(key.kind, [&](auto kind) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -83,6 +84,8 @@ class Values {
   // value := value (+) delta: Pose2::plus for poses, a sum for the others. `delta` has
   // key.dimension() numbers.
   void retract(Key key, const double* delta);
+  // The same for many; `deltas` has theirs one behind the other.
+  void retract(std::span<const Key> keys, const double* deltas);
   // value (-) the value in `origin`, into key.dimension() numbers: retract of `origin` by it gives
   // back the value. Both must hold the key.
   void subtract(Key key, const Values& origin, double* delta) const;
