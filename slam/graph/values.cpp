@@ -1,5 +1,6 @@
 #include "slam/graph/values.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace corridor::graph {
@@ -35,14 +36,30 @@ OrientedPose OrientedPose::plus(const Pose2::Tangent& tau) const {
 }
 
 template <class T>
-void Values::set(Slots<T>& slots, std::uint32_t index, const T& value) {
-  if (index >= slots.values.size()) {
-    slots.values.resize(index + 1);
-    slots.are_set.resize(index + 1, false);
+void Values::Slots<T>::reach(std::uint32_t index, const T& filler) {
+  if (values.empty()) first = index;
+  if (index < first) {
+    // As many again at least, so that descending indices do not move all of them every time.
+    const auto size = static_cast<std::uint32_t>(values.size());
+    const std::uint32_t gap = std::max(first - index, std::min(first, size));
+    values.insert(values.begin(), gap, filler);
+    are_set.insert(are_set.begin(), gap, false);
+    first -= gap;
   }
-  if (!slots.are_set[index]) ++num_values_;
-  slots.are_set[index] = true;
-  slots.values[index] = value;
+  if (index >= end()) {
+    values.resize(index - first + 1, filler);
+    are_set.resize(index - first + 1, false);
+  }
+}
+
+template <class T>
+void Values::set(Slots<T>& slots, std::uint32_t index, const T& value) {
+  if (!slots.has(index)) {
+    slots.reach(index, value);
+    slots.are_set[index - slots.first] = true;
+    ++num_values_;
+  }
+  slots.at(index) = value;
 }
 
 void Values::set_pose(std::uint32_t index, const Pose2& T_map_base) {
@@ -76,14 +93,21 @@ bool Values::contains(Key key) const {
 void Values::retract(Key key, const double* delta) {
   CORRIDOR_EXPECT(contains(key));
   for_each_kind(slots_, [&](VariableKind kind, auto& slots) {
-    if (kind == key.kind) move(slots.values[key.index], delta);
+    if (kind == key.kind) move(slots.at(key.index), delta);
   });
+}
+
+void Values::retract(std::span<const Key> keys, const double* deltas) {
+  for (const Key key : keys) {
+    retract(key, deltas);
+    deltas += key.dimension();
+  }
 }
 
 void Values::merge(const Values& other) {
   const auto take = [this](auto& slots, const auto& from) {
-    for (std::uint32_t i = 0; i < from.values.size(); ++i) {
-      if (from.has(i)) set(slots, i, from.values[i]);
+    for (std::uint32_t i = from.first; i < from.end(); ++i) {
+      if (from.has(i)) set(slots, i, from.at(i));
     }
   };
   take(std::get<0>(slots_), std::get<0>(other.slots_));
@@ -96,7 +120,7 @@ std::vector<Key> Values::keys() const {
   std::vector<Key> keys;
   keys.reserve(num_values_);
   for_each_kind(slots_, [&](VariableKind kind, const auto& slots) {
-    for (std::uint32_t i = 0; i < slots.values.size(); ++i) {
+    for (std::uint32_t i = slots.first; i < slots.end(); ++i) {
       if (slots.has(i)) keys.push_back({kind, i});
     }
   });

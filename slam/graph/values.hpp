@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -38,15 +39,25 @@ struct OrientedPose {
 };
 
 class Values {
-  // Indices are dense by convention: a slot per index, empty where no variable has it.
+  // Indices are dense by convention: a slot per index from the lowest one on, empty where no
+  // variable has it. So the few variables of an update take little room, however high they count.
   template <class T>
   struct Slots {
+    std::uint32_t first = 0;  // index of the first slot
     std::vector<T> values;
     std::vector<bool> are_set;
 
     [[nodiscard]] bool has(std::uint32_t index) const {
-      return index < are_set.size() && are_set[index];
+      const std::size_t slot = std::size_t{index} - first;  // beyond every slot for index < first
+      return slot < are_set.size() && are_set[slot];
     }
+    [[nodiscard]] const T& at(std::uint32_t index) const { return values[index - first]; }
+    [[nodiscard]] T& at(std::uint32_t index) { return values[index - first]; }
+    [[nodiscard]] std::uint32_t end() const {
+      return first + static_cast<std::uint32_t>(values.size());
+    }
+    // Makes the index's slot one of those that there are; `filler` is what new ones hold.
+    void reach(std::uint32_t index, const T& filler);
   };
   using AllSlots = std::tuple<Slots<OrientedPose>, Slots<Eigen::Vector2d>, Slots<Eigen::Vector3d>,
                               Slots<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
@@ -55,7 +66,7 @@ class Values {
   [[nodiscard]] const auto& get(std::uint32_t index) const {
     const auto& slots = std::get<static_cast<std::size_t>(kKind)>(slots_);
     CORRIDOR_EXPECT(slots.has(index));
-    return slots.values[index];
+    return slots.at(index);
   }
 
  public:
@@ -90,6 +101,8 @@ class Values {
   // value := value (+) delta: Pose2::plus for poses, a sum for the others. `delta` has
   // key.dimension() numbers.
   void retract(Key key, const double* delta);
+  // The same for many; `deltas` has theirs one behind the other.
+  void retract(std::span<const Key> keys, const double* deltas);
   // Takes over every variable of `other`.
   void merge(const Values& other);
 
