@@ -26,13 +26,11 @@ struct PoseGraph {
 
 NewFactor edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
   const Eigen::Vector3d weight(10, 10, 30);
-  return graph::RelativePose(pose_key(i), pose_key(j), T_i_j,
-                                               weight.asDiagonal().toDenseMatrix());
+  return graph::RelativePose(pose_key(i), pose_key(j), T_i_j, weight.asDiagonal().toDenseMatrix());
 }
 
 NewFactor prior(std::uint32_t i, const Pose2& T_map_base = {}) {
-  return graph::PosePrior(pose_key(i), T_map_base,
-                                            1e3 * Eigen::Matrix3d::Identity());
+  return graph::PosePrior(pose_key(i), T_map_base, 1e3 * Eigen::Matrix3d::Identity());
 }
 
 Pose2 noisy(Rng& rng, const Pose2& pose) {
@@ -105,6 +103,14 @@ RC_GTEST_PROP(LeastSquares, LevenbergEndsAtTheGaussNewtonOptimum, (std::uint64_t
                                solve(ring(seed), exact(false), false)) < kSameOptimum);
 }
 
+RC_GTEST_PROP(LeastSquares, BothLinearSolversTakeTheSameSteps, (std::uint64_t seed, bool damping)) {
+  LeastSquaresParams params = exact(damping);
+  params.linear = linear::LinearSolverKind::kCholmod;
+  const graph::Values by_cholmod = solve(ring(seed), params, false);
+  params.linear = linear::LinearSolverKind::kBlock;
+  RC_ASSERT(largest_difference(by_cholmod, solve(ring(seed), params, false)) < kSameOptimum);
+}
+
 TEST(LeastSquares, SpaSettingsReachTheOptimumToo) {
   const auto solver = make_least_squares(spa_params());
   PoseGraph problem = ring(5);
@@ -158,9 +164,25 @@ TEST(LeastSquares, WithoutAPriorThePosesAreUndeterminedAndStayAsTheyWere) {
   values.set_pose(1, {2, 0, 0});
   std::vector<NewFactor> factors;
   factors.push_back(edge(0, 1, {1, 0, 0}));
-  EXPECT_EQ(solver->update(std::move(factors), values, {}).status, SolveStatus::kRankDeficient);
+  const BackEndReport report = solver->update(std::move(factors), values, {});
+  EXPECT_EQ(report.status, SolveStatus::kRankDeficient);
+  EXPECT_TRUE(report.undetermined == pose_key(0) || report.undetermined == pose_key(1));
   EXPECT_EQ(solver->estimate().pose(1), Pose2(2, 0, 0));
   EXPECT_FALSE(solver->marginal_covariance(pose_key(0)).has_value());
+}
+
+TEST(LeastSquares, NamesThePoseThatIsUndetermined) {
+  for (const auto kind : {linear::LinearSolverKind::kCholmod, linear::LinearSolverKind::kBlock}) {
+    LeastSquaresParams params;
+    params.linear = kind;
+    const auto solver = make_least_squares(params);
+    PoseGraph problem = ring(3);
+    problem.initial.set_pose(99, {});  // no factor holds it
+    for (auto& factors : problem.steps) (void)solver->add(std::move(factors), problem.initial);
+    const BackEndReport report = solver->solve();
+    EXPECT_EQ(report.status, SolveStatus::kRankDeficient);
+    EXPECT_EQ(report.undetermined, pose_key(99));
+  }
 }
 
 TEST(LeastSquares, ARemovedFactorNoLongerPulls) {
