@@ -42,9 +42,8 @@ Entry isam2_entry() {
 
 std::vector<Entry> entries() {
   return {
-      least_squares_entry("gauss-newton", "batch Gauss-Newton on sparse Cholesky (CHOLMOD)", false),
-      least_squares_entry("levenberg", "batch Levenberg-Marquardt on sparse Cholesky (CHOLMOD)",
-                          true),
+      least_squares_entry("gauss-newton", "batch Gauss-Newton on sparse Cholesky", false),
+      least_squares_entry("levenberg", "batch Levenberg-Marquardt on sparse Cholesky", true),
       isam2_entry(),
       ceres_entry("ceres", "Ceres Solver with its default settings, a third-party reference", {}),
       ceres_entry("ceres@tuned", "Ceres Solver with the settings fastest on pose graphs",

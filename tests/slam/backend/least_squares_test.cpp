@@ -60,6 +60,14 @@ RC_GTEST_PROP(LeastSquares, LevenbergEndsAtTheGaussNewtonOptimum, (std::uint64_t
                                solve(ring(seed), exact(false), false)) < kSameOptimum);
 }
 
+RC_GTEST_PROP(LeastSquares, BothLinearSolversTakeTheSameSteps, (std::uint64_t seed, bool damping)) {
+  LeastSquaresParams params = exact(damping);
+  params.linear = linear::LinearSolverKind::kCholmod;
+  const graph::Values by_cholmod = solve(ring(seed), params, false);
+  params.linear = linear::LinearSolverKind::kBlock;
+  RC_ASSERT(largest_difference(by_cholmod, solve(ring(seed), params, false)) < kSameOptimum);
+}
+
 TEST(LeastSquares, SpaSettingsReachTheOptimumToo) {
   const auto solver = make_least_squares(spa_params());
   PoseGraph problem = ring(5);
@@ -113,9 +121,25 @@ TEST(LeastSquares, WithoutAPriorThePosesAreUndeterminedAndStayAsTheyWere) {
   values.set_pose(1, {2, 0, 0});
   std::vector<NewFactor> factors;
   factors.push_back(edge(0, 1, {1, 0, 0}));
-  EXPECT_EQ(solver->update(std::move(factors), values, {}).status, SolveStatus::kRankDeficient);
+  const BackEndReport report = solver->update(std::move(factors), values, {});
+  EXPECT_EQ(report.status, SolveStatus::kRankDeficient);
+  EXPECT_TRUE(report.undetermined == pose_key(0) || report.undetermined == pose_key(1));
   EXPECT_EQ(solver->estimate().pose(1), Pose2(2, 0, 0));
   EXPECT_FALSE(solver->marginal_covariance(pose_key(0)).has_value());
+}
+
+TEST(LeastSquares, NamesThePoseThatIsUndetermined) {
+  for (const auto kind : {linear::LinearSolverKind::kCholmod, linear::LinearSolverKind::kBlock}) {
+    LeastSquaresParams params;
+    params.linear = kind;
+    const auto solver = make_least_squares(params);
+    PoseGraph problem = ring(3);
+    problem.initial.set_pose(99, {});  // no factor holds it
+    for (auto& factors : problem.steps) (void)solver->add(std::move(factors), problem.initial);
+    const BackEndReport report = solver->solve();
+    EXPECT_EQ(report.status, SolveStatus::kRankDeficient);
+    EXPECT_EQ(report.undetermined, pose_key(99));
+  }
 }
 
 TEST(LeastSquares, ARemovedFactorNoLongerPulls) {

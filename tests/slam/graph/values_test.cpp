@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <map>
+#include <vector>
+
 #include "slam/core/rng.hpp"
 
 namespace corridor::graph {
@@ -27,13 +30,43 @@ TEST(Values, AGapBetweenIndicesIsNotAVariable) {
   EXPECT_TRUE(values.contains(pose_key(5)));
 }
 
-TEST(Values, TakesIndicesInAnyOrder) {
+RC_GTEST_PROP(Values, AreTheSameInWhateverOrderTheyAreSet, (std::uint64_t seed)) {
+  Rng rng(seed);
+  std::map<std::uint32_t, double> expected;
   Values values;
-  for (const std::uint32_t index : {7u, 3u, 9u, 3u}) values.set_pose(index, {1.0 * index, 0, 0});
-  EXPECT_EQ(values.size(), 3u);
-  for (const std::uint32_t index : {3u, 7u, 9u}) EXPECT_EQ(values.pose(index).x_m(), index);
-  for (const std::uint32_t index : {0u, 4u, 8u, 10u})
-    EXPECT_FALSE(values.contains(pose_key(index)));
+  for (int k = 0; k < 30; ++k) {
+    const auto index = static_cast<std::uint32_t>(500 + rng.below(60) - rng.below(500));
+    expected[index] = rng.normal();
+    values.set_wheel_scale(index, expected[index]);
+  }
+  RC_ASSERT(values.size() == expected.size());
+  std::vector<Key> keys;
+  for (const auto& [index, value] : expected) {
+    keys.push_back(wheel_scale_key(index));
+    RC_ASSERT(values.wheel_scale(index) == value);
+  }
+  RC_ASSERT(values.keys() == keys);
+  Values merged;
+  merged.set_wheel_scale(0, 0);
+  merged.merge(values);
+  for (const auto& [index, value] : expected) RC_ASSERT(merged.wheel_scale(index) == value);
+}
+
+TEST(Values, RetractOfManyIsThatOfEachWithItsPart) {
+  Values values;
+  values.set_pose(3, {1, 2, 0.5});
+  values.set_velocity(1, {1, 1});
+  values.set_pose(7, {4, 5, -0.5});
+  Values one_by_one = values;
+  const std::vector<Key> keys = {pose_key(7), velocity_key(1), pose_key(3)};
+  const std::vector<double> deltas = {1, 2, 3, 4, 5, 6, 7, 8};
+  values.retract(keys, deltas.data());
+  one_by_one.retract(keys[0], &deltas[0]);
+  one_by_one.retract(keys[1], &deltas[3]);
+  one_by_one.retract(keys[2], &deltas[5]);
+  EXPECT_EQ(values.pose(3), one_by_one.pose(3));
+  EXPECT_EQ(values.pose(7), one_by_one.pose(7));
+  EXPECT_EQ(values.velocity(1), one_by_one.velocity(1));
 }
 
 TEST(Values, SettingAgainReplaces) {
