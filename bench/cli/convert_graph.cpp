@@ -27,8 +27,9 @@ Result<ExitCode> convert_graph(const std::string& in, const std::filesystem::pat
   for (const std::string& note : graph->notes) common.say("note: " + note);
   const auto losses = formats::losses_of_conversion(*graph, *target);
   for (const std::string& loss : losses) common.say("lost: " + loss);
-  common.say(fmt::format("{}: {} poses, {} edges{}", out.string(), graph->vertices.size(),
-                         graph->edges.size(), losses.empty() ? ", nothing lost" : ""));
+  common.say(fmt::format("{}: {}, {}{}", out.string(), counted(graph->vertices.size(), "pose"),
+                         counted(graph->edges.size(), "edge"),
+                         losses.empty() ? ", nothing lost" : ""));
   return runner::kExitDone;
 }
 

@@ -70,10 +70,7 @@ Result<std::vector<const CatalogEntry*>> wanted_of(const catalog::Catalog& known
   }
   for (const std::string& name : names) {
     const CatalogEntry* entry = known.find(name);
-    if (entry == nullptr) {
-      return fail(ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name),
-                  "data fetch", "a name of `data list`");
-    }
+    if (entry == nullptr) return tl::make_unexpected(catalog::unknown_dataset(known, name));
     const bool is_new = std::find(wanted.begin(), wanted.end(), entry) == wanted.end();
     if (is_new) wanted.push_back(entry);
   }

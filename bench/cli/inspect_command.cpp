@@ -8,33 +8,61 @@
 #include <CLI/Option.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "bench/cli/log_report.hpp"
+#include "bench/runner/case_data.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/log_health.hpp"
 #include "datasets/formats/trajectories/relations.hpp"
+#include "datasets/simulation/truth.hpp"
 
 namespace corridor::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Relations that cannot be read are a note, as truth that cannot be.
-std::optional<std::size_t> num_relations_of(const catalog::LogSource& source,
-                                            std::vector<std::string>& notes) {
-  const auto path = formats::find_sidecar(source.path, ".relations", source.options);
-  if (!path) return std::nullopt;
-  const auto relations = formats::read_relations(*path);
-  if (relations) {
-    const std::size_t num_repeated = formats::num_repeated(*relations);
-    if (num_repeated > 0) notes.push_back(fmt::format("{} relations stand twice", num_repeated));
-    return relations->size();
+// What lies beside a log, and why `run` and `convert` refuse the log for it.
+struct Companions {
+  std::optional<std::size_t> num_relations;
+  std::vector<std::string> defects;
+
+  void refuse(const Error& error) { defects.push_back(error.to_line()); }
+};
+
+void look_at_relations(const fs::path& file, SensorLog& log, Companions& companions) {
+  const auto relations = formats::read_relations(file);
+  if (!relations) return companions.refuse(relations.error());
+  companions.num_relations = relations->size();
+  const std::size_t num_repeated = formats::num_repeated(*relations);
+  if (num_repeated > 0) {
+    log.provenance.notes.push_back(fmt::format("{} relations stand twice", num_repeated));
   }
-  notes.push_back("kept although refused: " + relations.error().to_line());
-  return std::nullopt;
+  if (const auto good = runner::check_relations(log, *relations); !good) {
+    companions.refuse(good.error());
+  }
+}
+
+Companions companions_of(const catalog::LogSource& source, formats::LogAsFound& found) {
+  Companions companions;
+  if (found.refused_truth) companions.refuse(*found.refused_truth);
+  if (const auto good = runner::check_truth(found.log); !good) companions.refuse(good.error());
+  const auto look_at = [&](const char* suffix, const auto& look) {
+    const auto file = formats::find_sidecar(source.path, suffix, source.options);
+    if (!file) companions.refuse(file.error());
+    if (file && *file) look(**file);
+  };
+  look_at(".relations",
+          [&](const fs::path& file) { look_at_relations(file, found.log, companions); });
+  look_at(".truth.toml", [&](const fs::path& file) {
+    const auto world = simulation::read_truth(file);
+    if (!world) companions.refuse(world.error());
+  });
+  return companions;
 }
 
 Result<catalog::LogSource> find(const std::string& log, const CommonOptions& common) {
@@ -69,15 +97,17 @@ Result<ExitCode> InspectCommand::run() const {
   auto& notes = found->log.provenance.notes;
   notes.insert(notes.end(), source->notes.begin(), source->notes.end());
 
+  const Companions companions = companions_of(*source, *found);
   const formats::EventPlaces places{std::move(found->origins), found->origin_unit};
   formats::LogHealth health = formats::examine(found->log, places);
+  health.defects.insert(health.defects.begin(), companions.defects.begin(),
+                        companions.defects.end());
   // By this name nothing else loads it.
   for (const std::string& line : source->other_checksums) {
     health.defects.insert(health.defects.begin(),
                           fmt::format("{}: refused as data set {}", line, source->name));
   }
-  const auto num_relations = num_relations_of(*source, notes);
-  const LogReport report{&found->log, &health, num_relations};
+  const LogReport report{&found->log, &health, companions.num_relations};
   const std::string text =
       is_json ? to_json(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
               : to_text(report);

@@ -13,6 +13,7 @@
 
 #include "bench/results/result_keys.hpp"
 #include "bench/runner/back_ends.hpp"
+#include "bench/runner/data_kind.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/runner/suite.hpp"
 #include "bench/runner/systems.hpp"
@@ -38,7 +39,9 @@ Json names_of(const std::vector<runner::ProfileInfo>& profiles) {
 }
 
 Result<Listing> list_systems(const CommonOptions&) {
-  Listing listing{Json::array(), {"name", "profiles", "backend", "needs_imu", "description"}, ""};
+  Listing listing{Json::array(),
+                  {"name", "profiles", "backend", "needs_imu", "needs_wheels", "description"},
+                  ""};
   for (const runner::SystemInfo& info : runner::systems()) {
     listing.items.push_back(
         {{"name", info.name},
@@ -46,6 +49,7 @@ Result<Listing> list_systems(const CommonOptions&) {
          {"profiles", names_of(info.profiles)},
          {"backend", info.default_backend ? Json(*info.default_backend) : Json(nullptr)},
          {"needs_imu", info.needs_imu},
+         {"needs_wheels", info.needs_wheels},
          {"is_stochastic", info.is_stochastic}});
   }
   return listing;
@@ -88,13 +92,21 @@ Result<Listing> list_backends(const CommonOptions&) {
   return listing;
 }
 
+// None as null, which a table shows as "-".
+Json to_json(const std::vector<std::filesystem::path>& paths) {
+  Json texts;
+  for (const std::filesystem::path& path : paths) texts.push_back(path.string());
+  return texts;
+}
+
 Result<Listing> list_datasets(const CommonOptions& common) {
   const Result<catalog::Catalog> known = catalog::known_datasets(common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
   Listing listing{Json::array(),
                   {"name", "format", "truth", "is_found", "is_fetchable", "title"},
-                  "is_found: a file of that name is there; data verify compares checksums\n"};
+                  "is_found: files of those names are there; data verify compares checksums\n"};
   bool has_own = false;
+  bool has_incomplete = false;
   for (const catalog::DatasetRow& row : catalog::list_datasets(*known, common.data_dirs())) {
     listing.items.push_back(
         {{"name", row.name},
@@ -103,15 +115,23 @@ Result<Listing> list_datasets(const CommonOptions& common) {
          {"truth", catalog::to_text(row.truth)},
          {"is_found", row.is_found},
          {"is_readable", row.is_readable},
-         {"path", row.is_found ? Json(row.path.string()) : Json(nullptr)},
+         {"path", row.path.empty() ? Json(nullptr) : Json(row.path.string())},
+         {"missing_files", to_json(row.missing_files)},
          {"licence", row.licence},
          {"source", row.source},
          {"is_fetchable", row.is_fetchable},
+         {"refused", nullptr},
          {"not_fetchable", row.is_fetchable ? Json(nullptr) : Json(row.not_fetchable)},
          {"catalogue", row.is_own ? Json(row.catalog_file.string()) : Json("built in")}});
+    if (const auto clear = runner::check_one_meaning(row.name, *known); !clear) {
+      listing.items.back()["refused"] = clear.error().to_line();
+      listing.remark += fmt::format("refused by that name: {}\n", clear.error().to_line());
+    }
     has_own = has_own || row.is_own;
+    has_incomplete = has_incomplete || !row.missing_files.empty();
   }
   if (has_own) listing.columns.insert(listing.columns.end() - 1, "catalogue");
+  if (has_incomplete) listing.columns.insert(listing.columns.end() - 1, "missing_files");
   return listing;
 }
 

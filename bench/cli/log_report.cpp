@@ -231,8 +231,9 @@ std::string to_text(const LogReport& report) {
   text += lines_of("note", log.provenance.notes, all);
   text += lines_of("suspicious", health.suspicions, all);
   text += lines_of("defect", health.defects, kMaxDefectsShown);
-  text += health.defects.empty() ? fmt::format("fit, {} suspicions\n", health.suspicions.size())
-                                 : fmt::format("not fit, {} defects\n", health.defects.size());
+  text += health.defects.empty()
+              ? fmt::format("fit, {}\n", counted(health.suspicions.size(), "suspicion"))
+              : fmt::format("not fit, {}\n", counted(health.defects.size(), "defect"));
   return text;
 }
 

@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <string>
 #include <system_error>
 
@@ -16,6 +19,44 @@ namespace fs = std::filesystem;
 
 // Of the staging folder: what lay in the way, until every file is in place.
 constexpr const char* kPrevious = "previous";
+
+constexpr const char* kPartial = ".partial";
+
+// The process in ".NAME.PROCESS.partial"; nullopt for any other name.
+std::optional<pid_t> owner_of(const fs::path& staging) {
+  const std::string name = staging.filename().string();
+  const std::string process = fs::path(name).stem().extension().string();
+  if (name.front() != '.' || staging.extension() != kPartial || process.size() < 2) {
+    return std::nullopt;
+  }
+  pid_t found = 0;
+  const char* const end = process.data() + process.size();
+  const auto [rest, error] = std::from_chars(process.data() + 1, end, found);
+  if (error != std::errc() || rest != end || found <= 0) return std::nullopt;
+  return found;
+}
+
+// Left behind by a program that was ended: there is no such process here, and none elsewhere on a
+// shared disk, or it would hold the lock.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path where = folder.empty() ? fs::path(".") : folder;
+  for (fs::directory_iterator entry(where, ignored), end; entry != end; entry.increment(ignored)) {
+    const fs::path& staging = entry->path();
+    const std::optional<pid_t> owner = owner_of(staging);
+    const bool is_ended = owner && ::kill(*owner, 0) != 0 && errno == ESRCH;
+    if (!is_ended || !fs::is_directory(fs::symlink_status(staging, ignored))) continue;
+    const fs::path previous = staging / kPrevious;
+    // What was in the way of new files and could not be put back is the user's.
+    const bool holds_users_files =
+        fs::is_directory(previous, ignored) &&
+        std::any_of(fs::directory_iterator(previous, ignored), fs::directory_iterator(),
+                    [](const auto& file) { return file.path().filename() != ".lock"; });
+    if (holds_users_files) continue;
+    if (const auto lock = runner::FolderLock::take(previous); !lock) continue;
+    fs::remove_all(staging, ignored);
+  }
+}
 
 tl::unexpected<Error> cannot(const char* what, const fs::path& path, const std::error_code& error) {
   return fail(ErrorCode::kUnreadable, fmt::format("{}: {}", what, error.message()), path.string());
@@ -38,8 +79,9 @@ Result<void> check_targets(const std::vector<fs::path>& files) {
 
 Result<StagedFiles> StagedFiles::beside(const fs::path& file) {
   const fs::path folder = file.parent_path();
+  remove_leftovers(folder);
   const fs::path staging =
-      folder / fmt::format(".{}.{}.partial", file.filename().string(), ::getpid());
+      folder / fmt::format(".{}.{}{}", file.filename().string(), ::getpid(), kPartial);
   std::error_code error;
   const bool is_new = fs::create_directory(staging, error);
   if (error) return cannot("cannot be written", file, error);
@@ -48,13 +90,16 @@ Result<StagedFiles> StagedFiles::beside(const fs::path& file) {
                 "a name that is free");
   }
   StagedFiles staged(folder, staging);
-  fs::create_directory(staging / kPrevious, error);
-  if (error) return cannot("cannot be written", file, error);
+  auto lock = runner::FolderLock::take(staging / kPrevious);
+  if (!lock) return tl::make_unexpected(lock.error());
+  staged.lock_.emplace(std::move(*lock));
   return staged;
 }
 
 StagedFiles::StagedFiles(StagedFiles&& other) noexcept
-    : folder_(std::move(other.folder_)), staging_(std::exchange(other.staging_, {})) {}
+    : folder_(std::move(other.folder_)),
+      staging_(std::exchange(other.staging_, {})),
+      lock_(std::move(other.lock_)) {}
 
 StagedFiles::~StagedFiles() {
   if (staging_.empty()) return;

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "bench/runner/folder_lock.hpp"
 #include "slam/core/result.hpp"
 
 namespace corridor::cli {
@@ -17,7 +19,8 @@ Result<void> check_targets(const std::vector<std::filesystem::path>& files);
 
 class StagedFiles {
  public:
-  // The hidden folder lies beside `file`: moving out of it never crosses file systems.
+  // The hidden folder lies beside `file`: moving out of it never crosses file systems. Removes
+  // those that programs which were ended from outside left there.
   static Result<StagedFiles> beside(const std::filesystem::path& file);
   StagedFiles(StagedFiles&& other) noexcept;
   StagedFiles& operator=(StagedFiles&&) = delete;
@@ -37,7 +40,8 @@ class StagedFiles {
   void put_back(const std::vector<std::filesystem::path>& names) const;
 
   std::filesystem::path folder_;
-  std::filesystem::path staging_;  // empty: nothing to remove
+  std::filesystem::path staging_;           // empty: nothing to remove
+  std::optional<runner::FolderLock> lock_;  // held as long as the folder is in use
 };
 
 }  // namespace corridor::cli

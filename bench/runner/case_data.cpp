@@ -70,6 +70,8 @@ Trajectory scan_trajectory(const SensorLog& log) {
   return scans;
 }
 
+}  // namespace
+
 Result<void> check_truth(const SensorLog& log) {
   const Trajectory scans = scan_trajectory(log);
   if (!log.truth || log.truth->empty() || scans.empty()) return {};
@@ -101,8 +103,6 @@ Result<void> check_relations(const SensorLog& log,
               fmt::format("stamps within {} s of those of {}", max_dt_s, log.provenance.source));
 }
 
-}  // namespace
-
 Result<catalog::LoadedDataset> load_dataset(const std::string& name_or_path,
                                             const catalog::DataDirs& dirs,
                                             const catalog::LoadOptions& options) {
@@ -112,6 +112,10 @@ Result<catalog::LoadedDataset> load_dataset(const std::string& name_or_path,
       std::filesystem::is_directory(name_or_path, ignored)) {
     return fail(ErrorCode::kInvalid, "this is a folder", name_or_path,
                 "a log file, or the name of a data set");
+  }
+  if (!loaded || !loaded->world_file) return loaded;
+  if (const auto world = simulation::read_truth(*loaded->world_file); !world) {
+    return tl::make_unexpected(world.error());
   }
   return loaded;
 }

@@ -26,13 +26,17 @@ struct CaseData {
   std::vector<std::string> suspicions;
 };
 
-// catalog::load_dataset(), but a folder is told to be one.
+// An Error if the truth of a log, or relations, meet none of its scans: they are of another clock,
+// unit or log.
+Result<void> check_truth(const SensorLog& log);
+Result<void> check_relations(const SensorLog& log, const std::vector<formats::Relation>& relations);
+
+// catalog::load_dataset(), but a folder is told to be one, and LOG.truth.toml must be readable.
 Result<catalog::LoadedDataset> load_dataset(const std::string& name_or_path,
                                             const catalog::DataDirs& dirs,
                                             const catalog::LoadOptions& options = {});
 
-// The same for a log that is to be scored: truth or relations that meet none of its
-// scans are an Error, since they are of another clock, unit or log.
+// The same for a log that is to be scored: its truth and relations are checked.
 Result<catalog::LoadedDataset> load_scorable_dataset(const std::string& name_or_path,
                                                      const catalog::DataDirs& dirs);
 

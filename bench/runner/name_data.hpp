@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/runner/case_spec.hpp"
+#include "bench/runner/systems.hpp"
 
 namespace corridor::runner {
 
@@ -14,7 +15,7 @@ struct DataItem {
   std::string name;
   std::string source;  // as in CaseSpec
   std::string digest;
-  bool has_imu = true;
+  LogSensors sensors = {};
 };
 
 // Data with their name as it is, unless others have it too: then files are named with as many of

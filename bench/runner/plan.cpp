@@ -32,16 +32,22 @@ Result<DataItem> scenario_item(const std::string& source) {
   for (const auto& [key, value] : simulation::scenario_values(*scenario)) {
     values += fmt::format("{} = {}\n", key, value);
   }
-  return DataItem{DataKind::kSimulated, scenario->name, is_path ? absolute_source(source) : source,
-                  results::short_digest(values), true};
+  return DataItem{DataKind::kSimulated,
+                  scenario->name,
+                  is_path ? absolute_source(source) : source,
+                  results::short_digest(values),
+                  {}};
 }
 
 Result<DataItem> dataset_item(const std::string& source, const catalog::DataDirs& dirs) {
   const Result<catalog::LoadedDataset> loaded = load_scorable_dataset(source, dirs);
   if (!loaded) return tl::make_unexpected(loaded.error());
   const bool is_name = loaded->name == source;
-  return DataItem{DataKind::kRecorded, loaded->name, is_name ? source : absolute_source(source),
-                  loaded->digest, loaded->log.num_imu_samples() > 0};
+  return DataItem{DataKind::kRecorded,
+                  loaded->name,
+                  is_name ? source : absolute_source(source),
+                  loaded->digest,
+                  {loaded->log.num_wheel_samples() > 0, loaded->log.num_imu_samples() > 0}};
 }
 
 class Planner {
@@ -71,7 +77,7 @@ class Planner {
         plan_.skipped.push_back(fmt::format("{}: skipped: {}", source, item.error().to_line()));
       } else {
         // Broken data are a row of every system, not a gap.
-        items_.push_back({DataKind::kRecorded, source, source, "", true});
+        items_.push_back({DataKind::kRecorded, source, source, "", {}});
       }
     }
     for (const DataItem& item : with_own_names(std::move(items_))) {
@@ -112,9 +118,9 @@ class Planner {
   void add(const DataItem& item, const SystemChoice& choice, std::optional<std::uint64_t> data_seed,
            std::uint64_t system_seed) {
     const Result<SystemInfo> info = find_system(choice.system);
-    if (info->needs_imu && !item.has_imu) {
-      const std::string line = fmt::format("{} on {}: skipped: needs an IMU, and the log has none",
-                                           choice.system, item.name);
+    if (const auto missing = missing_sensor(*info, item.sensors)) {
+      const std::string line = fmt::format("{} on {}: skipped: needs {}, and the log has none",
+                                           choice.system, item.name, *missing);
       if (plan_.skipped.empty() || plan_.skipped.back() != line) plan_.skipped.push_back(line);
       return;
     }

@@ -29,9 +29,10 @@ using results::RunResult;
 Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const CaseData& data) {
   const Result<SystemInfo> info = find_system(spec.system);
   if (!info) return tl::make_unexpected(info.error());
-  if (info->needs_imu && data.log.num_imu_samples() == 0) {
-    return fail(ErrorCode::kInvalid, fmt::format("system {} needs an IMU", spec.system),
-                spec.dataset, "a log with inertial samples");
+  const LogSensors sensors{data.log.num_wheel_samples() > 0, data.log.num_imu_samples() > 0};
+  if (const auto missing = missing_sensor(*info, sensors)) {
+    return fail(ErrorCode::kInvalid, fmt::format("system {} needs {}", spec.system, *missing),
+                spec.dataset, "a log with readings of each sensor that it needs");
   }
   return info->make(
       {spec.profile, spec.overrides, spec.backend, data.log.robot, spec.system_seed, spec.threads});

@@ -27,6 +27,7 @@ SystemInfo gmapping_entry() {
   SystemInfo info;
   info.name = "gmapping";
   info.description = "GMapping-style Rao-Blackwellised particle filter [Grisetti2007]";
+  info.needs_wheels = true;
   info.is_stochastic = true;
   set_factory<gmapping::GmappingParams>(
       info, {{"shipped", "as its ROS node ships", {}}},
@@ -40,6 +41,7 @@ SystemInfo karto_entry() {
   SystemInfo info;
   info.name = "karto";
   info.description = "Karto-style correlative scan matching and pose graph [Konolige2010]";
+  info.needs_wheels = true;
   info.default_backend = "levenberg";
   set_factory<karto::KartoParams>(
       info,
@@ -60,6 +62,7 @@ SystemInfo dead_reckoning_entry(bool use_gyro) {
   info.name = use_gyro ? "dead-reckoning-gyro" : "dead-reckoning";
   info.description = use_gyro ? "the wheels' path with the gyro's heading, no map"
                               : "the wheels alone, no map: the floor";
+  info.needs_wheels = true;
   info.needs_imu = use_gyro;
   dead_reckoning::DeadReckoningParams defaults;
   defaults.use_gyro = use_gyro;
@@ -86,6 +89,7 @@ SystemInfo mrpt_rbpf_entry() {
   SystemInfo info;
   info.name = "mrpt-rbpf";
   info.description = "MRPT's own RBPF-SLAM with optimal sampling, a third-party reference";
+  info.needs_wheels = true;
   info.is_stochastic = true;
   set_factory<mrpt::MrptRbpfParams>(
       info, {{"shipped", "as MRPT's grid mapping example is configured", {}}},
@@ -134,6 +138,12 @@ std::string names_of(const std::vector<T>& items) {
 bool SystemInfo::has_profile(std::string_view profile) const {
   return std::any_of(profiles.begin(), profiles.end(),
                      [profile](const ProfileInfo& info) { return info.name == profile; });
+}
+
+std::optional<std::string> missing_sensor(const SystemInfo& info, const LogSensors& sensors) {
+  if (info.needs_wheels && !sensors.has_wheels) return "wheels";
+  if (info.needs_imu && !sensors.has_imu) return "an IMU";
+  return std::nullopt;
 }
 
 std::vector<SystemInfo> systems() {

@@ -37,6 +37,7 @@ struct SystemInfo {
   std::string description;
   std::vector<ProfileInfo> profiles;           // the first is the default
   std::optional<std::string> default_backend;  // none: takes no back-end
+  bool needs_wheels = false;  // without them it would leave the robot where it starts
   bool needs_imu = false;
   bool is_stochastic = false;  // another seed gives another estimate
 
@@ -49,6 +50,15 @@ struct SystemInfo {
 
   [[nodiscard]] bool has_profile(std::string_view profile) const;
 };
+
+// The sensors that not every log has; without scans no log is of use to anybody.
+struct LogSensors {
+  bool has_wheels = true;
+  bool has_imu = true;
+};
+
+// What the system needs and such a log does not have: "wheels", "an IMU".
+std::optional<std::string> missing_sensor(const SystemInfo& info, const LogSensors& sensors);
 
 // In the order of tables: the floor, the rivals, the third-party references, the fusion systems.
 std::vector<SystemInfo> systems();

@@ -7,6 +7,7 @@
 
 #include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
+#include "slam/core/nearest_names.hpp"
 
 namespace corridor::catalog {
 namespace {
@@ -94,7 +95,12 @@ std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& di
   for (const CatalogEntry& entry : catalog.entries) {
     const auto folder = find_folder(entry, dirs);
     const auto path = folder ? *folder / entry.files.front().path : std::filesystem::path();
-    rows.push_back({entry.name, entry.title, folder.has_value(), !entry.is_graph(), path,
+    std::vector<std::filesystem::path> missing;
+    for (const DataFile& file : entry.files) {
+      if (folder && !is_file(*folder / file.path)) missing.push_back(file.path);
+    }
+    const bool is_found = folder.has_value() && missing.empty();
+    rows.push_back({entry.name, entry.title, is_found, !entry.is_graph(), path, std::move(missing),
                     entry.format, entry.truth, entry.licence, entry.source,
                     entry.not_fetchable.empty(), entry.not_fetchable, entry.catalog_file,
                     entry.folder.has_value()});
@@ -102,12 +108,18 @@ std::vector<DatasetRow> list_datasets(const Catalog& catalog, const DataDirs& di
   return rows;
 }
 
+Error unknown_dataset(const Catalog& catalog, std::string_view name) {
+  std::vector<std::string> names;
+  for (const CatalogEntry& entry : catalog.entries) names.push_back(entry.name);
+  return {ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name), "",
+          fmt::format("a name of `data list`; the nearest: {}",
+                      fmt::join(nearest_names(name, names), ", "))};
+}
+
 Result<std::vector<VerifiedFile>> verify_dataset(const Catalog& catalog, std::string_view name,
                                                  const DataDirs& dirs) {
   const CatalogEntry* entry = catalog.find(name);
-  if (entry == nullptr) {
-    return fail(ErrorCode::kNotFound, fmt::format("no data set '{}' in the catalogue", name));
-  }
+  if (entry == nullptr) return tl::make_unexpected(unknown_dataset(catalog, name));
   const auto folder = find_folder(*entry, dirs);
   std::vector<DataFile> files = entry->files;
   for (const DataFile& file : entry->companions) {

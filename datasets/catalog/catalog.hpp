@@ -95,9 +95,11 @@ Result<Catalog> known_datasets(const DataDirs& dirs);
 struct DatasetRow {
   std::string name;
   std::string title;
-  bool is_found = false;
+  bool is_found = false;       // every file of the entry
   bool is_readable = false;    // as a sensor log
   std::filesystem::path path;  // of the log, where it was found
+  // As catalogued, of those beside a log that was found: the entry is incomplete without them.
+  std::vector<std::filesystem::path> missing_files;
   std::string format;
   TruthKind truth = TruthKind::kNone;
   std::string licence;
@@ -120,6 +122,9 @@ struct VerifiedFile {
   std::string sha256;  // found, by the rule of DataFile; empty if missing
   std::string sha256_expected;
 };
+
+// A name that the catalogue does not have, with the nearest ones.
+Error unknown_dataset(const Catalog& catalog, std::string_view name);
 
 // Compares every file of an entry with the catalogue, and those companions that are there. An Error
 // for an unknown name.

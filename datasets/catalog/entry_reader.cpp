@@ -222,8 +222,8 @@ class EntryReader {
   void take_calibration() {
     const auto node = table_["calibration"];
     if (!node) return;
-    if (!node.is_table()) {
-      complain("calibration", "not a table");
+    if (!node.is_table() || node.as_table()->empty()) {
+      complain("calibration", "not a table, or one that states nothing");
       return;
     }
     std::ostringstream toml_text;
@@ -241,7 +241,10 @@ class EntryReader {
   void take_topics() {
     toml::table stated;
     for (const char* key : {"topics", "joints"}) {
-      if (const toml::node* node = table_.get(key)) stated.insert(key, *node);
+      const toml::node* node = table_.get(key);
+      if (node == nullptr) continue;
+      if (node->is_table() && node->as_table()->empty()) complain(key, "states nothing");
+      stated.insert(key, *node);
     }
     if (stated.empty()) return;
     if (entry_.format != "rosbag") {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -44,8 +45,9 @@ Result<std::string> digest_of(const std::filesystem::path& log, const std::strin
   std::string text = options_text(options);
   for (const std::string_view suffix : formats::kSidecarSuffixes) {
     const auto path = formats::find_sidecar(log, suffix, options);
-    if (!path) continue;
-    const auto sha256 = sha256_of_file(*path);
+    if (!path) return tl::make_unexpected(path.error());
+    if (!*path) continue;
+    const auto sha256 = sha256_of_file(**path);
     if (!sha256) return sha256;
     text += fmt::format("{} {}\n", suffix, *sha256);
   }
@@ -72,12 +74,15 @@ Result<LoadedDataset> load_file(const LogSource& source, const std::optional<std
     notes.push_back(line + ", accepted on request");
   }
   notes.insert(notes.end(), source.notes.begin(), source.notes.end());
-  if (const auto file = formats::find_sidecar(log, ".relations", source.options)) {
-    auto relations = formats::read_relations(*file);
-    if (!relations) return tl::make_unexpected(relations.error());
-    loaded.relations = std::move(*relations);
-  }
-  loaded.world_file = formats::find_sidecar(log, ".truth.toml", source.options);
+  auto world_file = formats::find_sidecar(log, ".truth.toml", source.options);
+  if (!world_file) return tl::make_unexpected(world_file.error());
+  loaded.world_file = std::move(*world_file);
+  const auto relations_file = formats::find_sidecar(log, ".relations", source.options);
+  if (!relations_file) return tl::make_unexpected(relations_file.error());
+  if (!*relations_file) return loaded;
+  auto relations = formats::read_relations(**relations_file);
+  if (!relations) return tl::make_unexpected(relations.error());
+  loaded.relations = std::move(*relations);
   return loaded;
 }
 
@@ -122,10 +127,12 @@ Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
 
 // Only what the catalogue lists is taken along: of the rest it has no checksum.
 void take_listed_sidecars(const CatalogEntry& entry, LogSource& source) {
-  source.options.only_sidecars = entry.sidecars();
+  const std::vector<std::string> listed = entry.sidecars();
+  source.options.only_sidecars = listed;
   for (const std::string_view suffix : formats::kSidecarSuffixes) {
     const std::filesystem::path path = formats::sidecar_of(source.path, suffix);
-    if (!is_file(path) || formats::find_sidecar(source.path, suffix, source.options)) continue;
+    const bool is_listed = std::find(listed.begin(), listed.end(), suffix) != listed.end();
+    if (is_listed || !is_file(path)) continue;
     source.notes.push_back(
         fmt::format("{} lies beside the log and is not used: data set {} does "
                     "not list it",
@@ -175,6 +182,11 @@ Result<LogSource> find_entry(const CatalogEntry& entry, const DataDirs& dirs,
 
 Result<LogSource> find_path(const std::filesystem::path& path, const Catalog& catalog,
                             const LoadOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !is_file(path)) {
+    return fail(ErrorCode::kNotFound, "this is no regular file", path.string(),
+                "a log file, or the name of a data set");
+  }
   if (!is_file(path)) {
     return fail(ErrorCode::kNotFound,
                 fmt::format("'{}' is neither a data set nor a log file", path.string()), "",

@@ -18,25 +18,32 @@ namespace {
 // A turn of a frame below this is the rounding of its printed angle.
 constexpr double kNoticed_rad = 1e-6;
 
-bool is_float(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
+// Beams of a fan may turn by this and be the same: a tenth of a millimetre at 100 m, a tenth of the
+// finest step in which a planar LiDAR tells ranges. A rawlog keeps the whole angle of a fan as a
+// 32-bit float, which turns no beam by more than 0.12e-6.
+constexpr double kNoticedBeam_rad = 1e-6;
+// As little at the last beam of a sweep: a robot at 10 m/s gets a hundredth of a millimetre far.
+constexpr double kNoticedSweep_s = 1e-6;
 
-// A rawlog keeps the whole angle of a fan as one float, a bag its begin and its step.
-bool loses_angles_in_rawlog(const LaserScan& scan) {
-  const auto num_steps = static_cast<double>(scan.num_beams() < 2 ? 0 : scan.num_beams() - 1);
-  if (num_steps == 0) return false;
-  const auto aperture_rad = static_cast<float>(scan.angle_increment_rad * num_steps);
-  return static_cast<double>(aperture_rad) / num_steps != scan.angle_increment_rad;
+double float_error(double value) {
+  return std::abs(static_cast<double>(static_cast<float>(value)) - value);
 }
 
-bool loses_angles_in_bag(const LaserScan& scan) {
-  return !is_float(scan.angle_min_rad) || !is_float(scan.angle_increment_rad);
+double num_steps_of(const LaserScan& scan) {
+  return static_cast<double>(scan.num_beams() < 2 ? 0 : scan.num_beams() - 1);
 }
 
-bool loses_duration_in_bag(const LaserScan& scan) {
-  if (scan.num_beams() < 2) return scan.duration_s != 0;
-  const auto num_steps = static_cast<double>(scan.num_beams() - 1);
-  const auto step_s = static_cast<float>(scan.duration_s / num_steps);
-  return static_cast<double>(step_s) * num_steps != scan.duration_s;
+// A bag keeps begin and step of a fan, and the time between beams, as 32-bit floats: how far its
+// last beam is off.
+double beam_error_in_bag_rad(const LaserScan& scan) {
+  return float_error(scan.angle_min_rad) +
+         num_steps_of(scan) * float_error(scan.angle_increment_rad);
+}
+
+double sweep_error_in_bag_s(const LaserScan& scan) {
+  const double num_steps = num_steps_of(scan);
+  if (num_steps == 0) return std::abs(scan.duration_s);
+  return num_steps * float_error(scan.duration_s / num_steps);
 }
 
 // Whether the model says more than what a reader that is told nothing takes for granted; `kept` is
@@ -52,7 +59,6 @@ class LossFinder {
   std::vector<std::string> of_rawlog() {
     std::size_t num_fine_stamps = 0;
     std::size_t num_turned = 0;
-    std::size_t num_rounded = 0;
     for (const SensorEvent& event : log_.events) {
       if (stamp_of(event).nanoseconds % kRawlogTick_ns != 0) ++num_fine_stamps;
       const auto* scan = std::get_if<LaserScan>(&event);
@@ -60,7 +66,6 @@ class LossFinder {
       const double turn_rad =
           centred_lidar_pose(*scan).theta_rad() - scan->T_base_lidar.theta_rad();
       if (std::abs(wrap_angle(turn_rad)) > kNoticed_rad) ++num_turned;
-      if (loses_angles_in_rawlog(*scan)) ++num_rounded;
       count_model_differences(*scan);
     }
     note(num_fine_stamps, "stamps are rounded to 100 ns");
@@ -70,7 +75,6 @@ class LossFinder {
     note(num_other_limits_,
          "scans lose a minimum range or a duration that differs from the robot "
          "model's");
-    note(num_rounded, "scans have their angles rounded to 32-bit floats");
     note_reference();
     return std::move(lines_);
   }
@@ -116,15 +120,21 @@ class LossFinder {
     std::size_t num_ticks = 0;
     std::size_t num_raw_ranges = 0;
     std::size_t num_near = 0;
-    std::size_t num_rounded = 0;
+    std::size_t num_turned = 0;
     std::size_t num_durations = 0;
+    double most_turned_rad = 0;
+    double most_late_s = 0;
     for (const SensorEvent& event : log_.events) {
       const auto* sample = std::get_if<WheelSample>(&event);
       if (sample != nullptr && sample->ticks) ++num_ticks;
       const auto* scan = std::get_if<LaserScan>(&event);
       if (scan == nullptr) continue;
-      if (loses_angles_in_bag(*scan)) ++num_rounded;
-      if (loses_duration_in_bag(*scan)) ++num_durations;
+      const double turned_rad = beam_error_in_bag_rad(*scan);
+      if (turned_rad > kNoticedBeam_rad) ++num_turned;
+      most_turned_rad = std::max(most_turned_rad, turned_rad);
+      const double late_s = sweep_error_in_bag_s(*scan);
+      if (late_s > kNoticedSweep_s) ++num_durations;
+      most_late_s = std::max(most_late_s, late_s);
       for (std::size_t i = 0; i < scan->num_beams(); ++i) {
         const double range_m = scan->ranges_m[i];
         const bool looks_valid =
@@ -136,8 +146,14 @@ class LossFinder {
     note(num_ticks, "wheel samples lose their encoder ticks");
     note(num_raw_ranges, "beams without return lose their raw range");
     note(num_near, "beams below the minimum range become beams without return");
-    note(num_rounded, "scans have their angles rounded to 32-bit floats");
-    note(num_durations, "scans have the time of their sweep rounded to 32-bit floats");
+    note(num_turned,
+         fmt::format("scans have beams turned by up to {:.1f} microradians: their angles "
+                     "become 32-bit floats",
+                     1e6 * most_turned_rad));
+    note(num_durations,
+         fmt::format("scans have the time of their sweep changed by up to {:.1f} us: "
+                     "it becomes a 32-bit float",
+                     1e6 * most_late_s));
     RobotModel kept;
     kept.lidar.range_min_m = log_.robot.lidar.range_min_m;
     kept.lidar.range_max_m = log_.robot.lidar.range_max_m;

@@ -19,6 +19,7 @@ namespace {
 constexpr double kGapFactor = 5;
 constexpr double kFarMedians = 3;  // ranges beyond as many medians may be codes
 constexpr double kTurnWindow_s = 1;
+constexpr double kChord_m = 0.1;  // well beyond the digits of printed poses, short beside a room
 // Of a window: on straight ways unequal wheels drift, and there is no turn to compare.
 constexpr double kLeastWindowTurn_rad = 0.05;
 constexpr double kLeastTurn_rad = 0.5;
@@ -147,6 +148,26 @@ void take_window(const WheelWindow& window, const std::string& place, WheelHealt
   }
 }
 
+// A chord of a path that rolls points along the mean of the headings at its ends.
+void take_chords(const std::vector<Placed<WheelSample>>& samples, WheelHealth& health) {
+  double sum_sideways_ratio = 0;
+  std::optional<Pose2> begin;
+  for (const auto& [sample, index] : samples) {
+    const Pose2& end = sample->T_odom_base;
+    if (!end.is_finite()) continue;
+    if (!begin) begin = end;
+    const Pose2 step = begin->between(end);
+    const double length_m = step.translation_m().norm();
+    if (length_m < kChord_m) continue;
+    const double off_rad = std::atan2(step.y_m(), step.x_m()) - 0.5 * step.theta_rad();
+    sum_sideways_ratio += std::abs(std::sin(off_rad));
+    ++health.num_chords;
+    begin = end;
+  }
+  if (health.num_chords == 0) return;
+  health.sideways_ratio = sum_sideways_ratio / static_cast<double>(health.num_chords);
+}
+
 WheelHealth wheels_of(const std::vector<Placed<WheelSample>>& samples, const LogLimits& limits,
                       const EventPlaces& places) {
   WheelHealth health;
@@ -174,6 +195,7 @@ WheelHealth wheels_of(const std::vector<Placed<WheelSample>>& samples, const Log
   if (!health.max_speed_mps && window.duration_s > 0) {
     take_window(window, places.of(samples.back().index), health);
   }
+  take_chords(samples, health);
   return health;
 }
 
@@ -302,6 +324,9 @@ LogHealth examine(const SensorLog& log, const EventPlaces& places, const LogLimi
   if (log.truth) health.truth = truth_health_of(log, limits);
   for (std::string& line : defects(log, limits, max_defects)) {
     health.defects.push_back(places.placed(std::move(line)));
+  }
+  if (health.lidar && health.lidar->longest_range_at.empty()) {
+    health.defects.emplace_back("no beam of any scan has a return; expected at least one");
   }
   health.suspicions = suspicions_of(health, log.robot, limits);
   return health;

@@ -73,6 +73,10 @@ struct WheelHealth {
   std::optional<double> max_yaw_rate_radps;
   std::string max_yaw_rate_at;
   std::size_t num_jumps = 0;  // steps faster than LogLimits
+  // Of chords of the path, their share across the heading (|sin| of the angle between), on average:
+  // 0 for wheels that roll, 2 / pi for headings that say nothing of the way.
+  double sideways_ratio = 0;
+  std::size_t num_chords = 0;
 };
 
 struct ImuHealth {

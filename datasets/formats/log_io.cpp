@@ -64,7 +64,9 @@ void cut_after(std::vector<SensorEvent>& events, double cut_after_s, Provenance&
 
 Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOptions& options,
                           std::optional<Trajectory> reference, SensorLog& log) {
-  const auto tum = find_sidecar(path, ".tum", options);
+  const auto found = find_sidecar(path, ".tum", options);
+  if (!found) return tl::make_unexpected(found.error());
+  const auto& tum = *found;
   if (!tum) {
     if (!reference) return {};
     if (!options.takes_reference) {
@@ -84,6 +86,10 @@ Result<void> attach_truth(const std::filesystem::path& path, const ReadLogOption
   if (!text) return tl::make_unexpected(text.error());
   auto truth = parse_tum_trajectory(*text, tum->string());
   if (!truth) return tl::make_unexpected(truth.error());
+  if (truth->trajectory.empty()) {
+    return fail(ErrorCode::kMalformed, "the truth has no pose", tum->string(),
+                "tum poses, or no file of this name");
+  }
   for (const std::string& note : truth->notes) log.provenance.notes.push_back("truth: " + note);
   log.truth = std::move(truth->trajectory);
   return {};
@@ -139,9 +145,9 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
         judge(integrate_wheel_ticks(log.events, log.robot.wheels, path.string()), refusals, notes);
     if (!integrated) return tl::make_unexpected(integrated.error());
   }
-  auto attached =
-      judge(attach_truth(path, options, std::move(parsed->reference), log), refusals, notes);
-  if (!attached) return tl::make_unexpected(attached.error());
+  const auto attached = attach_truth(path, options, std::move(parsed->reference), log);
+  if (!attached && refusals == Refusals::kAll) return tl::make_unexpected(attached.error());
+  if (!attached) found.refused_truth = attached.error();
   found.origins = std::move(parsed->origins);
   found.origins.resize(log.events.size());  // less what lies behind the cut
   found.origin_unit = parsed->origin_unit;
@@ -150,15 +156,17 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
 
 }  // namespace
 
-std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& log,
-                                                  std::string_view suffix,
-                                                  const ReadLogOptions& options) {
+Result<std::optional<std::filesystem::path>> find_sidecar(const std::filesystem::path& log,
+                                                          std::string_view suffix,
+                                                          const ReadLogOptions& options) {
   const auto& only = options.only_sidecars;
   if (only && std::find(only->begin(), only->end(), suffix) == only->end()) return std::nullopt;
   std::filesystem::path path = sidecar_of(log, suffix);
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
-  return path;
+  if (std::filesystem::is_regular_file(path, error)) return path;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path, error))) return std::nullopt;
+  return fail(ErrorCode::kUnreadable, "this is no regular file", path.string(),
+              "a file that belongs to the log, or nothing of this name");
 }
 
 Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,

@@ -77,10 +77,11 @@ struct ReadLogOptions {
   bool takes_reference = true;
 };
 
-// LOG with this suffix, where it is there and is to be taken along.
-std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& log,
-                                                  std::string_view suffix,
-                                                  const ReadLogOptions& options);
+// LOG with this suffix, where it is there and is to be taken along. An Error if what is there is no
+// regular file: a folder, a link that leads nowhere.
+Result<std::optional<std::filesystem::path>> find_sidecar(const std::filesystem::path& log,
+                                                          std::string_view suffix,
+                                                          const ReadLogOptions& options);
 
 // Reads a log, its calibration LOG.robot.toml, a bag's LOG.topics.toml and its truth LOG.tum, where
 // they lie beside it. An LCM log's own poses take the place of truth where there is no LOG.tum;
@@ -93,10 +94,12 @@ struct LogAsFound {
   // Where in the file each event stands, and in what this is counted: "line", "byte".
   std::vector<std::uint64_t> origins;
   std::string origin_unit;
+  // Why read_log() refuses the truth, which `log` lacks then.
+  std::optional<Error> refused_truth;
 };
 
-// As read_log(), but keeps what read_log() refuses for its readings, their stamps or its truth;
-// truth that cannot be read is left out with a note. What is no log of its format stays an Error.
+// As read_log(), but keeps what read_log() refuses for its readings or their stamps, and leaves out
+// a truth that it refuses. What is no log of its format stays an Error.
 Result<LogAsFound> read_log_as_found(const std::filesystem::path& path,
                                      const ReadLogOptions& options = {});
 

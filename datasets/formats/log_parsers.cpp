@@ -62,15 +62,22 @@ Result<ParsedLog> parse_raw(std::string_view bytes, LogFormat format, const std:
                 "wheels.track_m, left_m_per_tick and right_m_per_tick in " +
                     sidecar_of(file, ".robot.toml").string());
   }
+  const bool is_limit_stated = options.robot || stated.states_range_max;
+  if (parsed && format == LogFormat::kTicks && !is_limit_stated) {
+    parsed->notes.push_back(
+        fmt::format("tick logs state no limit: {} m is assumed, which may take codes for returns",
+                    stated.robot.lidar.range_max_m));
+  }
   return parsed;
 }
 
 Result<BagTopics> topics_of(const std::filesystem::path& path, const ReadLogOptions& options) {
   const auto sidecar = find_sidecar(path, ".topics.toml", options);
-  if (!sidecar) return options.topics.value_or(BagTopics{});
-  const auto text = read_file_bytes(*sidecar);
+  if (!sidecar) return tl::make_unexpected(sidecar.error());
+  if (!*sidecar) return options.topics.value_or(BagTopics{});
+  const auto text = read_file_bytes(**sidecar);
   if (!text) return tl::make_unexpected(text.error());
-  return bag_topics_from_toml(*text, sidecar->string());
+  return bag_topics_from_toml(*text, (*sidecar)->string());
 }
 
 Result<ParsedLog> parse_rosbag(std::string_view bytes, const std::filesystem::path& path,
@@ -97,10 +104,11 @@ bool is_suffix_of_two_formats(const std::filesystem::path& log) {
 Result<std::optional<Sidecar>> read_sidecar(const std::filesystem::path& log,
                                             const ReadLogOptions& options) {
   const auto path = find_sidecar(log, ".robot.toml", options);
-  if (!path) return std::nullopt;
-  auto text = read_file_bytes(*path);
+  if (!path) return tl::make_unexpected(path.error());
+  if (!*path) return std::nullopt;
+  auto text = read_file_bytes(**path);
   if (!text) return tl::make_unexpected(text.error());
-  return Sidecar{path->string(), std::move(*text)};
+  return Sidecar{(*path)->string(), std::move(*text)};
 }
 
 Result<ParsedLog> parse_log(const std::filesystem::path& path,

@@ -11,6 +11,8 @@ namespace {
 // No sensor of a moving robot is as slow, none of the LiDARs as fast.
 constexpr double kSlowestStep_s = 4;
 constexpr double kFastestScan_s = 2e-3;
+// In milliseconds even the slowest readings are no farther apart.
+constexpr double kSlowestStep_ms = 1000 * kSlowestStep_s;
 // Ranges of planar LiDARs: farther is centimetres or millimetres, nearer a factor too many.
 constexpr double kFarRange_m = 100;
 constexpr double kFarLimit_m = 1000;
@@ -28,6 +30,10 @@ constexpr double kDegreesFactor_low = 30;
 constexpr double kDegreesFactor_high = 110;
 constexpr double kSameTurn_ratio = 0.3;
 constexpr double kSameRate_factor = 2;
+// Recorded logs have at most 5 % of their way across their headings. Headings in degrees are as
+// good as drawn: 64 % +- 31 % of a chord, +- 7 % of twenty.
+constexpr double kSideways_ratio = 0.45;
+constexpr std::size_t kLeastChords = 20;
 // Robots that drive on floors: no smaller than a hand, no larger than a car.
 constexpr double kNarrowestTrack_m = 0.03;
 constexpr double kLargestRobot_m = 3;
@@ -106,8 +112,9 @@ class Suspicions {
 
   void suspect_stamps(const char* sensor, const StampHealth& stamps) {
     if (stamps.median_step_s > kSlowestStep_s) {
-      add(fmt::format("{}: {:.3f} s between readings; milliseconds for seconds?", sensor,
-                      stamps.median_step_s));
+      add(fmt::format("{}: {:.3f} s between readings; {} for seconds?", sensor,
+                      stamps.median_step_s,
+                      stamps.median_step_s > kSlowestStep_ms ? "microseconds" : "milliseconds"));
     }
     if (stamps.longest_gap_s > kSlowestStep_s && stamps.num_gaps > 0) {
       add(fmt::format(
@@ -179,6 +186,12 @@ class Suspicions {
     if (wheels.max_yaw_rate_radps > limits_.max_yaw_rate_radps) {
       add(fmt::format("wheels: a turn at {:.2f} rad/s ({}); degrees for radians?",
                       *wheels.max_yaw_rate_radps, wheels.max_yaw_rate_at));
+    }
+    if (wheels.num_chords >= kLeastChords && wheels.sideways_ratio > kSideways_ratio) {
+      add(fmt::format(
+          "wheels: {:.0f} % of the way lies across the headings; degrees for radians, an axis that "
+          "is another, or a robot that drives sideways?",
+          100 * wheels.sideways_ratio));
     }
   }
 

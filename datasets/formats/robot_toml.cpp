@@ -1,5 +1,4 @@
 #include "datasets/formats/robot_toml.hpp"
-#include "slam/core/units.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -8,6 +7,9 @@
 #include <optional>
 #include <sstream>
 #include <vector>
+
+#include "datasets/formats/toml_text.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -193,13 +195,9 @@ void refuse_other_tables(const toml::table& document, bool may_be_raw,
 
 Result<RobotOverride> parse(const RobotModel& base, const RawSensors& raw_base, bool is_complete,
                             std::string_view text, std::string_view where) {
-  toml::table document;
-  try {
-    document = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    return fail(ErrorCode::kMalformed, std::string(error.description()),
-                fmt::format("{}:{}", where, error.source().begin.line), "TOML");
-  }
+  const Result<toml::table> parsed = parse_toml_text(text, where);
+  if (!parsed) return tl::make_unexpected(parsed.error());
+  const toml::table& document = *parsed;
   RobotOverride stated;
   stated.robot = base;
   stated.raw = raw_base;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "slam/core/expect.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
@@ -63,8 +65,8 @@ std::vector<std::string> violations(const CorridorShape& shape) {
   check_positive("b_m", shape.b_m);
   check_positive("c_m", shape.c_m);
   if (!(shape.alpha_rad >= kMinAlpha_rad && shape.alpha_rad <= kMaxAlpha_rad)) {
-    found.push_back(fmt::format("world.alpha_deg = {:.6g}: expected 30 to 150",
-                                shape.alpha_rad * 180 / std::numbers::pi));
+    found.push_back(
+        fmt::format("world.alpha_deg = {:.6g}: expected 30 to 150", shape.alpha_rad * kDegPerRad));
   }
   if (!(shape.doors_every_m == 0 || (std::isfinite(shape.doors_every_m) &&
                                      shape.doors_every_m >= kDoorWidth_m + kDoorMargin_m))) {

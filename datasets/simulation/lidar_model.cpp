@@ -1,10 +1,11 @@
 #include "datasets/simulation/lidar_model.hpp"
-#include "slam/core/units.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {

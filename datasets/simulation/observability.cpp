@@ -1,9 +1,10 @@
 #include "datasets/simulation/observability.hpp"
-#include "slam/core/units.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {

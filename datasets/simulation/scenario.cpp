@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "datasets/simulation/scenario_sections.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 
@@ -67,11 +67,8 @@ RobotModel nominal_robot(const Scenario& scenario) {
   robot.wheels.track_m = scenario.wheels.track_m;
   robot.wheels.left_m_per_tick = scenario.wheels.m_per_tick;
   robot.wheels.right_m_per_tick = scenario.wheels.m_per_tick;
-  // White noise of `noise_ratio` on every step of length d adds (noise_ratio * d)^2 per d of path:
-  // noise_ratio * sqrt(d) per root metre, at the mean cruising speed.
   const double speed_mps = 0.5 * (scenario.drive.speed_min_mps + scenario.drive.speed_max_mps);
-  robot.wheels.sigma_m_per_sqrt_m =
-      scenario.wheels.noise_ratio * std::sqrt(speed_mps / scenario.imu.rate_hz);
+  robot.wheels.sigma_m_per_sqrt_m = scenario.wheels.noise_m_per_sqrt_m(speed_mps);
   robot.lidar.range_min_m = scenario.lidar.range_min_m;
   robot.lidar.range_max_m = scenario.lidar.range_max_m;
   robot.lidar.range_sigma_m = stated_range_sigma_m(scenario.lidar);
@@ -79,7 +76,7 @@ RobotModel nominal_robot(const Scenario& scenario) {
   robot.lidar.scan_duration_s = scenario.lidar.scan_duration_s;
   robot.lidar.time_offset_s = scenario.lidar.time_offset_s;
   const ImuParams& imu = scenario.imu;
-  robot.imu.T_base_imu = Pose2(imu.x_m, imu.y_m, imu.yaw_deg * std::numbers::pi / 180);
+  robot.imu.T_base_imu = Pose2(imu.x_m, imu.y_m, imu.yaw_deg * kRadPerDeg);
   robot.imu.rate_hz = imu.rate_hz;
   robot.imu.gyro_noise_radps = imu.gyro_noise_radps();
   robot.imu.accel_noise_mps2 = imu.accel_noise_mps2();

@@ -46,6 +46,11 @@ Result<fs::path> find_scenario(const std::string& name_or_path) {
     known.push_back(path.stem().string());
   }
   if (fs::is_regular_file(file, error)) return fs::path(file);
+  if (fs::exists(file, error)) {
+    const bool is_folder = fs::is_directory(file, error);
+    return fail(ErrorCode::kNotFound, is_folder ? "this is a folder" : "this is no regular file",
+                file, "a .toml file, or the name of a scenario");
+  }
   return fail(ErrorCode::kNotFound, "no such scenario", name_or_path,
               fmt::format("a .toml file, or one of `list scenarios`; the nearest names: {}",
                           fmt::join(nearest_names(file, known), ", ")));

@@ -1,7 +1,8 @@
 #include "datasets/simulation/scenario_params.hpp"
-#include "slam/core/units.hpp"
 
 #include <fmt/format.h>
+
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "datasets/simulation/route.hpp"
 #include "datasets/simulation/scenario.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
@@ -35,7 +35,7 @@ void check_rate(const char* key, double rate_hz, double imu_rate_hz,
 // Every corner of the box of shapes that a seed may draw.
 std::vector<CorridorShape> extreme_shapes(const Scenario& scenario) {
   const double spread = scenario.draw.length_spread;
-  const double alpha_spread_rad = scenario.draw.alpha_spread_deg * std::numbers::pi / 180;
+  const double alpha_spread_rad = scenario.draw.alpha_spread_deg * kRadPerDeg;
   std::vector<CorridorShape> shapes;
   for (const double a : {-spread, spread}) {
     for (const double b : {-spread, spread}) {

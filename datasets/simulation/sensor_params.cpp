@@ -1,11 +1,12 @@
 #include "datasets/simulation/sensor_params.hpp"
-#include "slam/core/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {

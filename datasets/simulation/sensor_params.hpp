@@ -3,6 +3,7 @@
 // of a data sheet.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,9 @@ double stated_range_sigma_m(const LidarParams& params);
 // ticks. left scale = 1 + e + u, right scale = 1 + e - u, and the true track is
 // track_m x (1 + t), constant per log.
 struct WheelParams {
+  // noise_ratio is said of steps of 5 ms, those of an IMU of the suite's robot.
+  static constexpr double kNoiseRate_hz = 200;
+
   double rate_hz = 50;
   double m_per_tick = 1e-4;
   double track_m = 0.35;
@@ -122,8 +126,7 @@ struct WheelParams {
     v(ParamInfo{"m_per_tick", "m", "path of the wheel's rim per tick", 1e-7, 0.1}, p.m_per_tick);
     v(ParamInfo{"track_m", "m", "distance between the wheels as the log states it", 0.05, 2},
       p.track_m);
-    v(ParamInfo{"noise_ratio", "1", "white noise of each IMU-rate step's path, as a part of it", 0,
-                1},
+    v(ParamInfo{"noise_ratio", "1", "white noise of each 5 ms of path, as a part of it", 0, 1},
       p.noise_ratio);
     v(ParamInfo{"scale_sigma", "1", "standard deviation of the scale error e of both wheels", 0,
                 0.2},
@@ -134,6 +137,16 @@ struct WheelParams {
     v(ParamInfo{"track_sigma", "1", "standard deviation of the track's relative error t", 0, 0.2},
       p.track_sigma);
     MessageParams::visit(p.message, v);  // ticks go on counting while messages are lost
+  }
+
+  // Of a step of another length the part is such that a path has the same noise, however many steps
+  // it is made of.
+  [[nodiscard]] double step_noise_ratio(double step_s) const {
+    return noise_ratio * std::sqrt(1 / (kNoiseRate_hz * step_s));
+  }
+  // Steps of length d add (noise_ratio * d)^2 per d of path: noise_ratio * sqrt(d) per root metre.
+  [[nodiscard]] double noise_m_per_sqrt_m(double speed_mps) const {
+    return noise_ratio * std::sqrt(speed_mps / kNoiseRate_hz);
   }
 };
 

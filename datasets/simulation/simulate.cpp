@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "datasets/simulation/imu_model.hpp"
 #include "datasets/simulation/lidar_model.hpp"
@@ -16,6 +15,7 @@
 #include "datasets/simulation/slips.hpp"
 #include "datasets/simulation/wheel_model.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
@@ -32,7 +32,7 @@ World draw_world(const Scenario& scenario, Rng rng) {
   drawn.a_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   drawn.b_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
   drawn.c_m *= 1 + rng.uniform(-params.length_spread, params.length_spread);
-  const double alpha_spread_rad = params.alpha_spread_deg * std::numbers::pi / 180;
+  const double alpha_spread_rad = params.alpha_spread_deg * kRadPerDeg;
   drawn.alpha_rad += rng.uniform(-alpha_spread_rad, alpha_spread_rad);
   return make_corridor(drawn);
 }
@@ -93,7 +93,8 @@ class Recorder {
         imu_path_(scenario.imu.message, simulated.truth.imu_time_offset_s,
                   rng.stream("imu messages")) {}
 
-  void record() {
+  // Whether any scan's beam has met a wall: else the route lies outside of its world.
+  bool record() {
     const double rate_hz = scenario_.imu.rate_hz;
     const std::size_t wheel_steps = steps_per_sample(rate_hz, scenario_.wheels.rate_hz);
     const std::size_t scan_steps = steps_per_sample(rate_hz, scenario_.lidar.rate_hz);
@@ -122,6 +123,7 @@ class Recorder {
         simulated_.log.events.begin(), simulated_.log.events.end(),
         [](const SensorEvent& a, const SensorEvent& b) { return stamp_of(a) < stamp_of(b); });
     simulated_.truth.degenerate = degenerate_.intervals();
+    return has_seen_walls_;
   }
 
  private:
@@ -145,7 +147,9 @@ class Recorder {
     LaserScan scan = lidar_.measure(sweep, rng_.stream("lidar").stream(std::uint64_t{scan_index}));
     scan.stamp = *stamp;
     add(std::move(scan));
-    degenerate_.add(*stamp, free_direction(sweep.hits));
+    const auto free = free_direction(sweep.hits);
+    has_seen_walls_ = has_seen_walls_ || !free || free->direction_rad;
+    degenerate_.add(*stamp, free);
     const bool is_later = simulated_.log.truth->append({*stamp, T_world_base, std::nullopt});
     CORRIDOR_ENSURE(is_later);
   }
@@ -172,6 +176,7 @@ class Recorder {
   ImuModel2d imu_;
   MessagePath lidar_path_, wheel_path_, imu_path_;
   DegenerateIntervals degenerate_;
+  bool has_seen_walls_ = false;
 };
 
 }  // namespace
@@ -192,11 +197,21 @@ Result<Simulated> simulate(const Scenario& scenario, std::uint64_t seed) {
   simulated.log.provenance = {
       .name = name, .source = "simulated", .format = "simulation", .notes = {}};
   simulated.log.truth.emplace();
-  Recorder(scenario, drive, rng, simulated).record();
+  const bool has_seen_walls = Recorder(scenario, drive, rng, simulated).record();
   if (simulated.log.truth->empty()) {
     return fail(ErrorCode::kInvalid,
                 fmt::format("no scan in a drive of {:.3g} s", drive.duration_s()), name,
                 "a drive long enough for one");
+  }
+  if (!has_seen_walls) {
+    return fail(
+        ErrorCode::kInvalid,
+        fmt::format("none of {} scans sees a wall on the way from ({:.3g}, {:.3g}) m",
+                    simulated.log.num_scans(), simulated.truth.T_world_base_start.x_m(),
+                    simulated.truth.T_world_base_start.y_m()),
+        name,
+        fmt::format("a route from which walls are seen, at most lidar.range_max_m = {} m away",
+                    scenario.lidar.range_max_m));
   }
   return simulated;
 }

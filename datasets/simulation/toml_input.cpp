@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "datasets/formats/file_bytes.hpp"
+#include "datasets/formats/toml_text.hpp"
 #include "slam/core/expect.hpp"
 
 namespace corridor::simulation {
@@ -22,16 +23,7 @@ Result<toml::table> parse_toml(const std::filesystem::path& path) {
   }
   const Result<std::string> text = formats::read_file_bytes(path, kMaxTomlBytes);
   if (!text) return tl::make_unexpected(text.error());
-  try {
-    toml::table document = toml::parse(std::string_view(*text));
-    if (!document.empty()) return document;
-    // All defaults would pass for what somebody asked for.
-    return fail(ErrorCode::kMalformed, "the file states nothing", path.string(),
-                "at least one key");
-  } catch (const toml::parse_error& parse_error) {
-    return fail(ErrorCode::kMalformed, std::string(parse_error.description()),
-                fmt::format("{}:{}", path.string(), parse_error.source().begin.line), "TOML");
-  }
+  return formats::parse_toml_text(*text, path.string());
 }
 
 Error to_error(const std::filesystem::path& path, const std::vector<TomlProblem>& problems) {

@@ -18,10 +18,11 @@ void WheelEncoders::advance(const DriveState& from, const DriveState& to, double
   const double turn_rad = 0.5 * (from.yaw_rate_radps + to.yaw_rate_radps) * step_s;
   const double half_difference_m = 0.5 * params_.track_m * errors_.track_ratio * turn_rad;
   const double spin = 1 + spin_ratio;
-  left_path_m_ += (path_m - half_difference_m) * spin * errors_.left_scale *
-                  rng_.normal(1, params_.noise_ratio);
-  right_path_m_ += (path_m + half_difference_m) * spin * errors_.right_scale *
-                   rng_.normal(1, params_.noise_ratio);
+  const double noise_ratio = params_.step_noise_ratio(step_s);
+  left_path_m_ +=
+      (path_m - half_difference_m) * spin * errors_.left_scale * rng_.normal(1, noise_ratio);
+  right_path_m_ +=
+      (path_m + half_difference_m) * spin * errors_.right_scale * rng_.normal(1, noise_ratio);
 }
 
 WheelSample WheelEncoders::sample(Timestamp stamp) {

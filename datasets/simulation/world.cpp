@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 
 #include "slam/core/expect.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::simulation {
 namespace {
@@ -46,7 +48,7 @@ void check_surfaces(const World& world, std::vector<std::string>& found) {
     if (!is_fit) {
       found.push_back(fmt::format(
           "world: arc {} with radius {} m and sweep {} deg; expected {} to {} m and 0 to 360 deg",
-          i, arc.radius_m, arc.sweep_rad * 180 / std::numbers::pi, kShortest_m, kLargest_m));
+          i, arc.radius_m, arc.sweep_rad * kDegPerRad, kShortest_m, kLargest_m));
     }
   }
 }

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "reports/escape.hpp"
 #include "reports/figures/report_figures.hpp"
 #include "reports/figures/scene.hpp"
+#include "slam/core/units.hpp"
 
 namespace corridor::figures {
 namespace {
@@ -120,10 +120,10 @@ std::optional<Figure> environment_figure(const reports::Cases& cases, const std:
   if (entry == nullptr) return std::nullopt;
   const simulation::CorridorShape& shape = *scene.world->corridor;
   const KeyWalls walls = simulation::key_walls(shape);
-  const std::string labels[] = {
-      fmt::format("a = {:.3f} m", shape.a_m), fmt::format("b = {:.3f} m", shape.b_m),
-      fmt::format("c = {:.3f} m", shape.c_m),
-      fmt::format("α = {:.2f}°", shape.alpha_rad * 180 / std::numbers::pi)};
+  const std::string labels[] = {fmt::format("a = {:.3f} m", shape.a_m),
+                                fmt::format("b = {:.3f} m", shape.b_m),
+                                fmt::format("c = {:.3f} m", shape.c_m),
+                                fmt::format("α = {:.2f}°", shape.alpha_rad * kDegPerRad)};
   Svg svg("environment-" + reports::file_name_from(dataset), kWidth_px, kHeight_px,
           fmt::format("The corridor of {} with its key distances", dataset),
           fmt::format("Drawing of an L-shaped corridor with {}, {}, {}, {}", labels[0], labels[1],

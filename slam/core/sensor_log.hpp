@@ -54,8 +54,10 @@ struct LogLimits {
   double max_gap_s = 10.0;
   double max_speed_mps = 10.0;       // of the wheel odometry; faster means wrong units or stamps
   double max_yaw_rate_radps = 20.0;  // of wheels and gyro
-  // Both of the wheels are means over this or a step, whichever is longer: stamps that nearly
-  // coincide say nothing about speed.
+  // Both of the wheels are means over as many steps as last this long together: stamps that nearly
+  // coincide say nothing about speed. The rest of a log behind its last full window, and the whole
+  // of a shorter log, may be as long as max_speed_mps allows in its own time and max_jump_m more,
+  // and turn as far as max_yaw_rate_radps allows in a full window.
   double speed_window_s = 0.2;
   double max_jump_m = 0.5;               // one step of the wheels, besides what the speed allows
   double max_acceleration_mps2 = 200.0;  // 20 g: more than sensors of robots measure

@@ -30,7 +30,9 @@ void write_and_read(const SensorLog& log) {
 
 bool bag(std::string_view bytes) {
   const auto [toml, log] = split(bytes);
-  const auto topics = formats::bag_topics_from_toml(toml, "log.topics.toml");
+  // Without a text before it, a bag beside which no LOG.topics.toml lies.
+  const Result<formats::BagTopics> topics =
+      toml.empty() ? formats::BagTopics{} : formats::bag_topics_from_toml(toml, "log.topics.toml");
   if (!topics) return false;
   const MemoryFile file(log);
   for (const bool keeps_record_order : {false, true}) {

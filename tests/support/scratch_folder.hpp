@@ -2,6 +2,8 @@
 // It is removed even when the test fails; nothing outside of it is touched.
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -10,12 +12,20 @@
 
 namespace corridor::testing {
 
+// Where files lie in memory, or the temporary folder where there is no such place. For small files
+// only: containers often have 64 MB of it.
+inline std::filesystem::path memory_folder() {
+  const std::filesystem::path folder = "/dev/shm";
+  const bool is_usable = ::access(folder.c_str(), W_OK | X_OK) == 0;
+  return is_usable ? folder : std::filesystem::temp_directory_path();
+}
+
 class ScratchFolder {
  public:
-  ScratchFolder() {
+  ScratchFolder() : ScratchFolder(std::filesystem::temp_directory_path()) {}
+  explicit ScratchFolder(const std::filesystem::path& parent) {
     // mkdtemp() replaces the six letters at the end.
-    std::string name =
-        (std::filesystem::temp_directory_path() / "corridor-").string() + std::string(6, 'X');
+    std::string name = (parent / "corridor-").string() + std::string(6, 'X');
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder at " + name);
     path_ = name;
   }

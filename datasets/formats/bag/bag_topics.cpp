@@ -7,6 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "datasets/formats/toml_text.hpp"
+
 namespace corridor::formats {
 namespace {
 
@@ -89,14 +91,9 @@ class TopicsReader {
 }  // namespace
 
 Result<BagTopics> bag_topics_from_toml(std::string_view text, const std::string& where) {
-  toml::table document;
-  try {
-    document = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    return fail(ErrorCode::kMalformed, std::string(error.description()),
-                fmt::format("{}:{}", where, error.source().begin.line), "TOML");
-  }
-  TopicsReader reader(document);
+  const Result<toml::table> document = parse_toml_text(text, where);
+  if (!document) return tl::make_unexpected(document.error());
+  TopicsReader reader(*document);
   BagTopics topics = reader.read();
   if (reader.wrong().empty()) return topics;
   return fail(ErrorCode::kInvalid, fmt::format("{}", fmt::join(reader.wrong(), "; ")), where,

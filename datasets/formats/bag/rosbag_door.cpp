@@ -8,7 +8,10 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <exception>
+#include <memory>
 #include <utility>
 
 namespace corridor::formats::ros1 {
@@ -144,6 +147,18 @@ rosbag::CompressionType rosbag_compression(Compression compression) {
                                           : rosbag::compression::Uncompressed;
 }
 
+void write_all(rosbag::Bag& bag, const std::vector<Message>& messages) {
+  for (const Message& message : messages) {
+    std::visit(
+        [&](const auto& content) {
+          auto written = ros_message(content);
+          written.header.stamp = ros_time(message.stamp_ns);
+          bag.write(message.topic, ros_time(message.record_ns), written);
+        },
+        message.content);
+  }
+}
+
 }  // namespace
 
 Result<std::vector<Message>> read_messages(const std::string& path,
@@ -172,23 +187,24 @@ Result<std::vector<Message>> read_messages(const std::string& path,
 
 Result<void> write_messages(const std::string& path, const std::vector<Message>& messages,
                             Compression compression, std::uint32_t chunk_bytes) {
+  auto bag = std::make_unique<rosbag::Bag>();
+  // rosbag tells how many bytes were not written, the system why.
+  errno = 0;
   try {
-    rosbag::Bag bag(path, rosbag::bagmode::Write);
-    bag.setCompression(rosbag_compression(compression));
-    bag.setChunkThreshold(chunk_bytes);
-    for (const Message& message : messages) {
-      std::visit(
-          [&](const auto& content) {
-            auto written = ros_message(content);
-            written.header.stamp = ros_time(message.stamp_ns);
-            bag.write(message.topic, ros_time(message.record_ns), written);
-          },
-          message.content);
-    }
-    bag.close();
+    bag->open(path, rosbag::bagmode::Write);
+    bag->setCompression(rosbag_compression(compression));
+    bag->setChunkThreshold(chunk_bytes);
+    write_all(*bag, messages);
+    bag->close();
   } catch (const std::exception& error) {
-    return fail(ErrorCode::kUnreadable, std::string("rosbag cannot write it: ") + error.what(),
-                path);
+    const int reason = errno;
+    // Never destroyed: its destructor writes what is left, and throws where that fails again, which
+    // would end the program.
+    static_cast<void>(bag.release());
+    return fail(
+        ErrorCode::kUnreadable,
+        std::string("cannot be written: ") + (reason != 0 ? std::strerror(reason) : error.what()),
+        path);
   }
   return {};
 }

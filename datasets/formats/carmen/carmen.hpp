@@ -30,6 +30,11 @@ inline bool is_skipped_carmen_message(std::string_view name) {
          kSkippedCarmenMessages.end();
 }
 
+// For lines that are left out whole: whether FLASER, ROBOTLASER1 or ODOM with a number behind it
+// begins within `fields`, those behind the line's own message. A line whose end was lost would take
+// the next one along unseen. The Error says so.
+Result<void> check_one_message(std::string_view fields, const std::string& where);
+
 struct CarmenOptions {
   // No return at or beyond this range. Without it ROBOTLASER1 lines use their own max_range.
   std::optional<double> no_return_range_m;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "datasets/formats/carmen/carmen.hpp"
+#include "datasets/formats/degree_check.hpp"
 #include "datasets/formats/text.hpp"
 
 namespace corridor::formats {
@@ -23,7 +24,8 @@ struct LineEnd {
 // Takes fields off one line; the first thing wrong is kept and all later answers mean nothing.
 class LineReader {
  public:
-  LineReader(std::string_view rest, std::string where) : rest_(rest), where_(std::move(where)) {}
+  LineReader(std::string_view rest, std::string where, DegreeCheck& headings)
+      : rest_(rest), where_(std::move(where)), headings_(headings) {}
 
   double number(const char* name) {
     const std::string_view field = take_field(rest_);
@@ -52,7 +54,9 @@ class LineReader {
       refuse(name, fmt::format("heading {}", theta_rad),
              fmt::format("at most {:g} rad", kMaxHeading_rad).c_str());
     }
-    return has_failed() ? Pose2() : Pose2(x_m, y_m, theta_rad);
+    if (has_failed()) return {};
+    headings_.take(theta_rad);  // as it stands: a pose wraps it
+    return {x_m, y_m, theta_rad};
   }
 
   CarmenSpeed speed() {
@@ -90,12 +94,14 @@ class LineReader {
     error_ = Error{ErrorCode::kMalformed, fmt::format("{} {}", name, found), where_, expected};
   }
 
+  [[nodiscard]] const std::string& where() const { return where_; }
   [[nodiscard]] bool has_failed() const { return error_.has_value(); }
   [[nodiscard]] const Error& error() const { return *error_; }
 
  private:
   std::string_view rest_;
   std::string where_;
+  DegreeCheck& headings_;
   std::optional<Error> error_;
 };
 
@@ -110,7 +116,7 @@ class CarmenParser {
     line_number_ = line_number;
     const std::string_view message = take_field(line);
     if (message.empty() || message.front() == '#') return {};
-    LineReader reader(line, fmt::format("{}:{}", file_, line_number));
+    LineReader reader(line, fmt::format("{}:{}", file_, line_number), headings_);
     if (message == "FLASER") {
       take_flaser(reader);
     } else if (message == "ROBOTLASER1") {
@@ -118,6 +124,7 @@ class CarmenParser {
     } else if (message == "ODOM") {
       take_odom(reader);
     } else if (is_skipped_carmen_message(message)) {
+      if (auto good = check_one_message(line, reader.where()); !good) return good;
       ++log_.left_out[fmt::format("{} lines skipped", message)];
     } else {
       reader.refuse("message", message, "a CARMEN message such as FLASER, ROBOTLASER1 or ODOM");
@@ -128,6 +135,7 @@ class CarmenParser {
 
   ParsedLog finish() {
     count_other_speeds();
+    if (auto note = headings_.note()) log_.notes.push_back(std::move(*note));
     return std::move(log_);
   }
 
@@ -287,6 +295,7 @@ class CarmenParser {
   const std::string& file_;
   const CarmenOptions& options_;
   std::uint64_t line_number_ = 0;
+  DegreeCheck headings_;
   Pose2 last_T_base_lidar_;
   // The lines that state speeds.
   std::vector<WheelSample> wheel_lines_;
@@ -295,6 +304,19 @@ class CarmenParser {
 };
 
 }  // namespace
+
+Result<void> check_one_message(std::string_view fields, const std::string& where) {
+  for (auto field = take_field(fields); !field.empty(); field = take_field(fields)) {
+    for (const std::string_view message : {"FLASER", "ROBOTLASER1", "ODOM"}) {
+      // Whatever stands for the line's end may belong to the field.
+      std::string_view rest = fields;
+      if (!field.ends_with(message) || !parse_double(take_field(rest))) continue;
+      return fail(ErrorCode::kMalformed, fmt::format("{} within a line", message), where,
+                  "one message in a line: has its end been lost?");
+    }
+  }
+  return {};
+}
 
 Result<ParsedLog> parse_carmen(std::string_view text, const std::string& file,
                                const CarmenOptions& options) {

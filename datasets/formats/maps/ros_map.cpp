@@ -22,6 +22,8 @@ constexpr double kWhite = 255;
 // What a trinary file says is certain to this much: probability 0.953 or 0.047.
 constexpr float kCertainLogOdds = 3.0F;
 constexpr int kMaxSide_cells = 100'000;
+// Longer than anything yaml-cpp says of itself.
+constexpr std::size_t kMaxSaid_bytes = 120;
 constexpr std::size_t kMaxCells = std::size_t{1} << 28;
 
 unsigned char pixel_of(CellClass cell_class) {
@@ -129,8 +131,9 @@ Result<MapHeader> parse_header(const std::string& text, const std::string& where
                 wrong->line < 0 ? where : fmt::format("{}:{}", where, wrong->line + 1),
                 "a description as map_server's, negate: 0 or 1");
   } catch (const YAML::Exception& error) {
-    return fail(ErrorCode::kMalformed, error.msg, fmt::format("{}:{}", where, error.mark.line + 1),
-                "YAML");
+    // The library puts bytes of the file into what it says, a line's end among them.
+    return fail(ErrorCode::kMalformed, quote(error.msg, kMaxSaid_bytes),
+                fmt::format("{}:{}", where, error.mark.line + 1), "YAML");
   }
 }
 

@@ -100,6 +100,10 @@ Result<ReadTrajectory> parse_carmen_trajectory(std::string_view text, const std:
     }
     if (is_scan && kind.empty()) kind = fields[0];
     if (fields[0] != kind) {
+      std::string_view rest = *line;
+      take_field(rest);
+      if (auto good = check_one_message(rest, where); !good)
+        return tl::make_unexpected(good.error());
       ++num_left_out[std::string(fields[0])];
       continue;
     }

@@ -101,7 +101,7 @@ TEST(BadRequest, FilesThatStateNothing) {
   folder.write("m.yaml",
                "image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
                "occupied_thresh: 0.65\nfree_thresh: 0.2\n");
-  const std::string nothing = "the file states nothing; expected at least one key";
+  const std::string nothing = "states nothing; expected at least one key";
   expect_refused(folder, "simulate empty.toml --out x.rawlog", {"empty.toml: " + nothing});
   expect_refused(folder, "simulate remarks.toml --out x.rawlog", {"remarks.toml: " + nothing});
   expect_refused(folder, "simulate on-empty.toml --out x.rawlog", {"empty.toml: " + nothing});
@@ -110,6 +110,9 @@ TEST(BadRequest, FilesThatStateNothing) {
   expect_refused(folder, "data list --data-dir data", {"catalog.toml: dataset: missing"});
   expect_refused(folder, "evaluate --estimate a.tum --truth a.tum --map m.yaml --world empty.toml",
                  {"empty.toml: " + nothing});
+  folder.write("a.clf", "FLASER 2 1 2 0 0 0 0 0 0 1 h 1\n");
+  folder.write("a.robot.toml", "[lidar]\n");
+  expect_refused(folder, "data inspect a.clf", {"a.robot.toml: " + nothing});
 }
 
 TEST(BadRequest, SeedsThatAreNoSeeds) {
@@ -200,6 +203,18 @@ TEST(BadRequest, AFolderAsALog) {
   expect_refused(folder, "run --system karto --dataset logs --out o",
                  {"logs: this is a folder; expected a log file"});
   expect_refused(folder, "convert logs x.rawlog", {"logs: this is a folder; expected a log file"});
+  expect_refused(folder, "simulate ./logs --out x.rawlog",
+                 {"./logs: this is a folder; expected a"});
+}
+
+TEST(BadRequest, ADeviceAsALog) {
+  const ScratchFolder folder;
+  expect_refused(folder, "run --system karto --dataset /dev/null --out o",
+                 {"/dev/null: this is no regular file; expected a log file"});
+  for (const char* command : {"convert /dev/null x.rawlog", "data inspect /dev/null",
+                              "simulate /dev/null --out x.rawlog"}) {
+    expect_refused(folder, command, {"/dev/null: this is no regular file; expected a"});
+  }
 }
 
 TEST(BadRequest, ATruthOfAnotherClock) {
@@ -209,6 +224,51 @@ TEST(BadRequest, ATruthOfAnotherClock) {
   expect_refused(
       folder, "run --system karto --dataset run.clf --out o",
       {"run.tum", "no stamp in common", "1000.000 s to 2000.000 s", "1.000 s to 1.100 s"});
+}
+
+// As an interrupted copy leaves it.
+TEST(BadRequest, ALogWhoseTruthIsEmpty) {
+  for (const std::string text : {"", "# stamp x y z qx qy qz qw\n"}) {
+    const ScratchFolder folder;
+    folder.write("a.clf", kGoodLog);
+    folder.write("a.tum", text);
+    for (const std::string command :
+         {"run --system dead-reckoning --dataset a.clf --out o", "convert a.clf b.bag"}) {
+      expect_refused(folder, command, {"a.tum: the truth has no pose; expected tum poses"});
+    }
+    EXPECT_EQ(run_program(folder, "data inspect a.clf").exit_code, 1);
+  }
+}
+
+// Whichever file beside the log is broken, before anything is run or written.
+TEST(BadRequest, ALogWhoseTruthCannotBeRead) {
+  for (const std::string name : {"a.tum", "a.relations", "a.truth.toml"}) {
+    const ScratchFolder folder;
+    folder.write("a.clf", kGoodLog);
+    folder.write(name, "garbage\n");
+    for (const std::string command :
+         {"run --system dead-reckoning --dataset a.clf --out o --quiet", "convert a.clf b.bag"}) {
+      expect_refused(folder, command, {name + ":1: "});
+    }
+  }
+}
+
+TEST(BadRequest, SomethingThatIsNoFileBesideALog) {
+  for (const std::string suffix : {"robot.toml", "tum", "relations", "truth.toml"}) {
+    const ScratchFolder folder;
+    folder.write("a.clf", kGoodLog);
+    folder.write("b.clf", kGoodLog);
+    std::filesystem::create_directory(folder / ("a." + suffix));
+    std::filesystem::create_symlink("nowhere", folder / ("b." + suffix));
+    for (const std::string log : {"a", "b"}) {
+      for (const char* command : {"run --system karto --out o --dataset ", "convert --quiet "}) {
+        const bool is_convert = std::string(command).starts_with("convert");
+        expect_refused(folder, command + log + ".clf" + (is_convert ? " c.bag" : ""),
+                       {log + "." + suffix + ": this is no regular file; expected a file"});
+      }
+      EXPECT_GE(run_program(folder, "data inspect " + log + ".clf").exit_code, 1);
+    }
+  }
 }
 
 TEST(BadRequest, IsToldWithoutControlCharacters) {

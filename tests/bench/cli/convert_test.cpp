@@ -40,7 +40,7 @@ TEST(Convert, TakesAGraphToToroAndBackWithoutChangingANumber) {
   EXPECT_EQ(text_of(folder / "b.graph"),
             "VERTEX2 0 0 0 0\nVERTEX2 1 1 0 0\nEDGE2 0 1 1 0 0 1 0.1 2 3 0.2 0.3\n");
   const Answer back = run_program(folder, "convert b.graph c.g2o");
-  EXPECT_NE(back.out.find("2 poses, 1 edges, nothing lost"), std::string::npos) << back.out;
+  EXPECT_NE(back.out.find("2 poses, 1 edge, nothing lost"), std::string::npos) << back.out;
   EXPECT_EQ(text_of(folder / "c.g2o"),
             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0.1 0.2 2 0.3 3\n");
 }

@@ -85,11 +85,16 @@ TEST_F(DataCommand, FetchEndsWithOneIfWhatComesIsSomethingElse) {
   EXPECT_EQ(contents_of(folder_ / "data"), std::vector<std::string>{"sub"});
 }
 
-TEST_F(DataCommand, FetchOfAnUnknownNameIsABadRequest) {
-  const Answer answer = run("data fetch nowhere --data-dir data");
-  EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
-  EXPECT_NE(answer.err.find("no data set 'nowhere'"), std::string::npos) << answer.err;
+TEST_F(DataCommand, AnUnknownNameIsABadRequestAnsweredWithTheNearest) {
+  for (const std::string command : {"fetch", "verify"}) {
+    const Answer answer = run("data " + command + " nowhere --data-dir data");
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_EQ(answer.num_error_lines(), 1) << answer.err;
+    EXPECT_NE(answer.err.find("no data set 'nowhere' in the catalogue; expected a name of `data "
+                              "list`; the nearest: here"),
+              std::string::npos)
+        << answer.err;
+  }
   EXPECT_TRUE(server_.requests().empty());
 }
 
@@ -115,8 +120,9 @@ TEST_F(DataCommand, InspectOfADatasetWithOtherBytesSaysThatItIsRefusedByThisName
   folder_.write("data/sub/here.clf", std::string(kLog) + "# another version\n");
   const Answer answer = run("data inspect here --data-dir data");
   EXPECT_EQ(answer.exit_code, 1) << answer.err;
-  EXPECT_NE(answer.out.find("is not the catalogue's: refused as data set here\nnot fit, 1 defects"),
-            std::string::npos)
+  EXPECT_NE(
+      answer.out.find("is not the catalogue's: refused as data set here\nnot fit, 1 defect\n"),
+      std::string::npos)
       << answer.out;
   EXPECT_EQ(answer.out.find("on request"), std::string::npos) << answer.out;
   EXPECT_NE(answer.out.find("LiDAR: 4 beams"), std::string::npos) << answer.out;
@@ -126,11 +132,26 @@ TEST_F(DataCommand, ListSaysThatItComparesNoChecksums) {
   folder_.write("data/sub/here.clf", "something else");
   const Answer text = run("data list --data-dir data");
   EXPECT_NE(
-      text.out.find("\nis_found: a file of that name is there; data verify compares checksums\n"),
+      text.out.find("\nis_found: files of those names are there; data verify compares checksums\n"),
       std::string::npos)
       << text.out;
   const auto rows = nlohmann::json::parse(run("data list --json --data-dir data").out);
   EXPECT_EQ(rows.at(0).at("is_found"), true);
+}
+
+TEST_F(DataCommand, ListNamesWhatIsMissingBesideALogThatIsThere) {
+  const std::string whole = "data list --data-dir data";
+  EXPECT_EQ(run(whole).out.find("missing_files"), std::string::npos);
+  std::string own = entry("own", kLog, "", "not_fetchable = \"made here\"\n");
+  own.insert(own.find(" }]") + 2,
+             ", { path = \"sub/own.robot.toml\", sha256 = \"" + std::string(64, '0') + "\" }");
+  folder_.write("data/catalog.toml", own);
+  folder_.write("data/sub/own.clf", kLog);
+  EXPECT_NE(run(whole).out.find("sub/own.robot.toml"), std::string::npos) << run(whole).out;
+  const auto row = nlohmann::json::parse(run(whole + " --json").out).back();
+  EXPECT_EQ(row.at("is_found"), false);
+  EXPECT_EQ(row.at("missing_files"), nlohmann::json({"sub/own.robot.toml"}));
+  EXPECT_EQ(row.at("path"), (folder_ / "data/sub/own.clf").string()) << row;
 }
 
 TEST_F(DataCommand, InspectListsTheDefectsOfALogThatNothingElseTakes) {
@@ -146,6 +167,42 @@ TEST_F(DataCommand, InspectListsTheDefectsOfALogThatNothingElseTakes) {
   EXPECT_EQ(report.at("is_fit"), false);
   EXPECT_EQ(report.at("lidar").at("num_stamps_back"), 1);
   EXPECT_EQ(report.at("lidar").at("first_bad_stamp_at"), "line 3");
+}
+
+TEST_F(DataCommand, InspectCallsNoLogFitThatRunRefusesForWhatLiesBesideIt) {
+  const std::vector<std::pair<std::string, std::string>> companions = {
+      {"a.tum", "garbage\n"},
+      {"a.tum", "1000 0 0 0 0 0 0 1\n1100 0.1 0 0 0 0 0 1\n"},
+      {"a.tum", "2000 0 0 0 0 0 0 1\n"},
+      {"a.relations", "garbage\n"},
+      {"a.relations", "2000 2001 0 0 0 0 0 0\n"},
+      {"a.truth.toml", "[world\n"}};
+  for (const auto& [name, text] : companions) {
+    folder_.write("a.clf", kLog);
+    folder_.write(name, text);
+    EXPECT_EQ(run("run --system dead-reckoning --dataset a.clf --out o").exit_code, 2) << text;
+    const Answer answer = run("data inspect a.clf");
+    EXPECT_EQ(answer.exit_code, 1) << answer.out;
+    EXPECT_NE(answer.out.find("\ndefect: " + name + ":"), std::string::npos) << answer.out;
+    EXPECT_EQ(answer.out.find("kept although refused"), std::string::npos) << answer.out;
+    fs::remove(folder_ / name);
+  }
+}
+
+TEST_F(DataCommand, ALogWithoutAReturnIsNotFitAndRunSaysSo) {
+  folder_.write("a.clf",
+                "FLASER 4 100 100 100 190 0 0 0 0 0 0 1.0 host 1.0\n"
+                "FLASER 4 100 100 100 190 0.1 0 0 0.1 0 0 1.1 host 1.1\n");
+  const Answer inspected = run("data inspect a.clf");
+  EXPECT_EQ(inspected.exit_code, 1);
+  EXPECT_NE(inspected.out.find("\ndefect: no beam of any scan has a return; expected at least "
+                               "one\nnot fit, 1 defect\n"),
+            std::string::npos)
+      << inspected.out;
+  const Answer ran = run("run --system dead-reckoning --dataset a.clf --out o --no-report");
+  EXPECT_NE(ran.out.find("note: suspicious data: LiDAR: no beam of any scan has a return"),
+            std::string::npos)
+      << ran.out << ran.err;
 }
 
 TEST_F(DataCommand, InspectOfWhatIsNoLogIsABadRequest) {
@@ -187,15 +244,17 @@ TEST_F(DataCommand, ACatalogueOfADataFolderThatIsBrokenIsOneLine) {
 TEST_F(DataCommand, ANameThatIsAScenarioAndADataSetIsRefused) {
   folder_.write("mine/catalog.toml",
                 entry("rectangle", kLog, "", "not_fetchable = \"made here\"\n"));
+  const std::string clash = "catalog.toml:1: 'rectangle' is a scenario and a data set";
+  const Answer list = run("data list --data-dir mine");
+  EXPECT_NE(list.out.find("\nrefused by that name: "), std::string::npos) << list.out;
+  EXPECT_NE(list.out.find(clash), std::string::npos) << list.out;
   folder_.write("mine.toml",
                 "name = \"mine\"\nsystems = [\"dead-reckoning\"]\nscenarios = [\"rectangle\"]\n");
   for (const std::string command :
        {"run --system dead-reckoning --dataset rectangle --out o", "run mine.toml --out o"}) {
     const Answer answer = run(command + " --data-dir mine");
     EXPECT_EQ(answer.exit_code, 2) << command;
-    EXPECT_NE(answer.err.find("catalog.toml:1: 'rectangle' is a scenario and a data set"),
-              std::string::npos)
-        << answer.err;
+    EXPECT_NE(answer.err.find(clash), std::string::npos) << answer.err;
   }
 }
 

@@ -1,5 +1,7 @@
 // The command `simulate`: what it writes beside what, what it says of it, what it refuses.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <regex>
@@ -10,6 +12,8 @@
 
 namespace corridor::testing {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST(Simulate, GivesTheSameBytesForTheSameSeedAndTheTruthBesideThem) {
   const ScratchFolder folder;
@@ -51,6 +55,24 @@ std::vector<std::string> losses_in(const std::string& said) {
     if (line.starts_with("lost: ")) losses.push_back(line);
   }
   return losses;
+}
+
+// What a program leaves that is ended from outside goes with the next one that writes there.
+TEST(Simulate, RemovesWhatEndedProgramsLeftAndNothingElse) {
+  const ScratchFolder folder;
+  constexpr int kNoProcess = 99'999'999;  // beyond the largest number that Linux gives
+  const auto hidden = [](int process) { return fmt::format(".old.rawlog.{}.partial", process); };
+  folder.write(fs::path(hidden(kNoProcess)) / "old.rawlog", "cut");
+  fs::create_directory(folder / hidden(kNoProcess) / "previous");
+  folder.write(fs::path(hidden(getpid())) / "old.rawlog", "being written");
+  folder.write(fs::path(hidden(kNoProcess + 1)) / "previous" / "old.rawlog", "the only copy");
+  folder.write(".mine.partial/file", "another's");
+  ASSERT_EQ(run_program(folder, "simulate paper-corridor --out a.rawlog --quiet").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / hidden(kNoProcess)));
+  EXPECT_TRUE(fs::exists(folder / hidden(getpid())));
+  EXPECT_TRUE(fs::exists(folder / hidden(kNoProcess + 1)));
+  EXPECT_TRUE(fs::exists(folder / ".mine.partial"));
+  EXPECT_TRUE(fs::exists(folder / "a.rawlog"));
 }
 
 TEST(Simulate, CountsWhatTheFileHolds) {

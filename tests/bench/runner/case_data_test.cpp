@@ -40,6 +40,13 @@ TEST_F(ScorableDataset, RefusesATruthOfAnotherClockAndSaysBothSpans) {
   EXPECT_EQ(refused.error().where, (folder_ / "run.tum").string());
 }
 
+TEST_F(ScorableDataset, RefusesAWorldThatCannotBeRead) {
+  folder_.write("run.truth.toml", "[world\n");
+  const auto refused = load();
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().where, (folder_ / "run.truth.toml").string() + ":1");
+}
+
 TEST_F(ScorableDataset, RefusesRelationsOfAnotherClock) {
   folder_.write("run.relations", "1.0 2000 1 0 0 0 0 0\n");
   const auto refused = load();

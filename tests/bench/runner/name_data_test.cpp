@@ -10,7 +10,7 @@ using ::testing::ElementsAre;
 
 DataItem item(const std::string& name, const std::string& source,
               DataKind kind = DataKind::kRecorded) {
-  return {kind, name, source, "", true};
+  return {kind, name, source, "", {}};
 }
 
 std::vector<std::string> names_of(const std::vector<DataItem>& items) {

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "datasets/formats/log_io.hpp"
+#include "tests/support/room_drive.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace corridor::runner {
@@ -92,6 +94,24 @@ constexpr const char* kTinyLog =
     "FLASER 8 1 1 1 1 1 1 1 1 0 0 0 0 0 0 1.0 host 1.0\n"
     "ODOM 0.1 0 0 0.2 0 0 1.1 host 1.1\n"
     "FLASER 8 1 1 1 1 1 1 1 1 0.1 0 0 0.1 0 0 1.1 host 1.1\n";
+
+// Not a case that passes with every pose at the origin.
+TEST(Plan, SkipsSystemsThatNeedASensorWhichTheLogDoesNotHave) {
+  SensorLog log = testing::room_log({.num_scans = 2});
+  std::erase_if(log.events, [](const SensorEvent& event) {
+    return std::holds_alternative<WheelSample>(event);
+  });
+  const testing::ScratchFolder folder;
+  ASSERT_TRUE(formats::write_log(log, folder / "no-wheels.bag"));
+  Suite suite = suite_of({"dead-reckoning", "gmapping", "karto", "mrpt-icp"});
+  suite.datasets = {(folder / "no-wheels.bag").string()};
+  const Plan plan = plan_of(suite);
+  ASSERT_EQ(plan.cases.size(), 1U);
+  EXPECT_EQ(plan.cases[0].system, "mrpt-icp");
+  ASSERT_EQ(plan.skipped.size(), 3U);
+  EXPECT_EQ(plan.skipped[0],
+            "dead-reckoning on no-wheels: skipped: needs wheels, and the log has none");
+}
 
 TEST(Plan, TellsLogsOfTheSameFileNameApart) {
   const testing::ScratchFolder folder;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bench/runner/back_ends.hpp"
+#include "tests/support/room_drive.hpp"
 
 namespace corridor::runner {
 namespace {
@@ -66,6 +67,40 @@ TEST(Systems, ResolveEveryParameterAndRefuseUnknownOnes) {
             karto.resolve("corrected", {})->at("count_no_returns"));
   EXPECT_FALSE(karto.resolve("shipped", {{"speed", "5"}}).has_value());
   EXPECT_FALSE(karto.resolve("nope", {}).has_value());
+}
+
+// Of the others the scans alone make a path: a system that stays at the origin has to say so.
+TEST(Systems, ThatNeedNoWheelsFollowADriveWithoutThem) {
+  const SensorLog log = testing::room_log({.num_scans = 40});
+  for (const SystemInfo& info : systems()) {
+    if (info.needs_wheels || info.needs_imu) continue;
+    const auto system =
+        *info.make({info.profiles.front().name, {}, info.default_backend, log.robot, 1, 1});
+    for (const SensorEvent& event : log.events) {
+      if (std::holds_alternative<WheelSample>(event)) continue;
+      ASSERT_TRUE(system->step(event).has_value()) << info.name;
+    }
+    const auto estimate = system->finish();
+    ASSERT_TRUE(estimate.has_value()) << info.name << ": " << estimate.error().to_line();
+    // On the other side of the room, 3.2 m away.
+    const Pose2 T_map_base = estimate->trajectory[20].T_map_base;
+    const Pose2 true_T_map_base = (*log.truth)[20].T_map_base;
+    EXPECT_LT((T_map_base.translation_m() - true_T_map_base.translation_m()).norm(), 0.3)
+        << info.name;
+  }
+}
+
+TEST(Systems, SayWhichSensorTheyMiss) {
+  const auto missing = [](const char* name, const LogSensors& sensors) {
+    return missing_sensor(*find_system(name), sensors).value_or("nothing");
+  };
+  const LogSensors no_wheels{.has_wheels = false}, no_imu{.has_imu = false};
+  EXPECT_EQ(missing("dead-reckoning", no_wheels), "wheels");
+  EXPECT_EQ(missing("dead-reckoning", no_imu), "nothing");
+  EXPECT_EQ(missing("dead-reckoning-gyro", no_wheels), "wheels");
+  EXPECT_EQ(missing("dead-reckoning-gyro", no_imu), "an IMU");
+  EXPECT_EQ(missing("fusion-paper", no_imu), "an IMU");
+  EXPECT_EQ(missing("fusion", {false, false}), "nothing");
 }
 
 TEST(SystemChoice, ReadsNamesWithAndWithoutAProfile) {

@@ -254,6 +254,17 @@ TEST(ListDatasets, SaysWhatWasFoundWhere) {
   EXPECT_EQ(rows[0].path, data.folder / "data/sub/tiny.clf");
   EXPECT_EQ(to_text(rows[0].truth), "relations");
   EXPECT_FALSE(rows[1].is_found);
+  EXPECT_TRUE(rows[1].missing_files.empty());
+}
+
+TEST(ListDatasets, AnEntryWithoutAFileBesideItsLogIsIncompleteAndNotFound) {
+  const TinyData data;
+  std::filesystem::remove(data.folder / "data/sub/tiny.relations");
+  const auto rows = list_datasets(data.catalog(), data.dirs);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_FALSE(rows[0].is_found);
+  EXPECT_EQ(rows[0].path, data.folder / "data/sub/tiny.clf");
+  EXPECT_EQ(rows[0].missing_files, (std::vector<std::filesystem::path>{"sub/tiny.relations"}));
 }
 
 TEST(VerifyDataset, TellsMatchingFromDifferentFromMissing) {

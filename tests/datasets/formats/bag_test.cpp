@@ -336,7 +336,14 @@ TEST(BagTopics, ListsEveryViolation) {
   }
   EXPECT_FALSE(bag_topics_from_toml("[joints]\nleft = \"a\"\n", "t.toml").has_value());
   EXPECT_FALSE(bag_topics_from_toml("[topics", "t.toml").has_value());
-  EXPECT_TRUE(bag_topics_from_toml("", "t.toml").has_value());
+}
+
+TEST(BagTopics, ATextWithoutAKeyIsRefused) {
+  for (const char* text : {"", "# nothing yet\n", "[topics]\n"}) {
+    const auto topics = bag_topics_from_toml(text, "t.toml");
+    ASSERT_FALSE(topics.has_value()) << text;
+    EXPECT_EQ(topics.error().to_line(), "t.toml: states nothing; expected at least one key");
+  }
 }
 
 }  // namespace

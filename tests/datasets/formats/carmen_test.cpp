@@ -200,7 +200,7 @@ TEST(Carmen, RobotlaserStatesItsGeometryAndItsMounting) {
 }
 
 TEST(Carmen, OdomLinesAreWheelSamplesAndOtherMessagesAreCounted) {
-  const auto log = parse("PARAM robot_width 0.5 0 h 0\nODOM 1 2 3 0.1 0 0 5.5 h 5.5\n");
+  const auto log = parse("PARAM odometry ODOM on 0 h 0\nODOM 1 2 3 0.1 0 0 5.5 h 5.5\n");
   ASSERT_TRUE(log.has_value()) << log.error().to_line();
   ASSERT_EQ(log->events.size(), 1U);
   EXPECT_EQ(std::get<WheelSample>(log->events[0]).T_odom_base, Pose2(1, 2, 3));
@@ -231,6 +231,8 @@ TEST(Carmen, AnswersEachDefectWithItsLine) {
       {"ROBOTLASER1 0 -1 1.5 0.5 -8 0.01 0 4 1 1 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 h 1",
        "maximum range '-8'"},
       {"ODOM 1 2 3 0 0 0 x h 1", "stamp 'x'"},
+      {"PARAM width 0.5 0 h 0;ODOM 1 2 3 0 0 0 1 h 1", "ODOM within a line"},
+      {"SYNC a 1 h 1 FLASER 1 1 " + tail, "FLASER within a line"},
       {"\x01\x02garbage", "message '\\x01\\x02garbage'"},
   };
   for (const auto& [line, message] : defects) {

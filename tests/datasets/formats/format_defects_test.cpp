@@ -1,154 +1,32 @@
 // One defect, every format that can have it: text with bytes changed or cut off, endless lines,
 // other units, stamps of few digits, clocks that jump, a locale with a decimal comma.
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <clocale>
-#include <functional>
 #include <locale>
 #include <map>
 
-#include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "datasets/formats/log_health.hpp"
 #include "datasets/formats/log_io.hpp"
-#include "datasets/formats/maps/ros_map.hpp"
 #include "datasets/formats/robot_toml.hpp"
 #include "datasets/formats/trajectories/relations.hpp"
 #include "datasets/formats/trajectories/trajectory_io.hpp"
 #include "tests/datasets/formats/golden_support.hpp"
 #include "tests/datasets/formats/lcm_support.hpp"
+#include "tests/datasets/formats/text_formats.hpp"
 
 namespace corridor::formats {
 namespace {
 
 using test::golden_file;
-using test::golden_parts;
+using test::joined;
+using test::Outcome;
+using test::read_as_log;
 using test::read_text;
 using test::ScratchFolder;
+using test::text_formats;
+using test::TextFormat;
 using test::write_text;
-
-// What a reader made of a text.
-struct Outcome {
-  bool is_read = false;
-  std::size_t num_readings = 0;
-  std::string said;  // the Error, or the notes
-};
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
-// A text format with a file of known content, and a way to read any text as one.
-struct TextFormat {
-  std::string name;
-  std::string text;
-  std::function<Outcome(const std::string& text)> read;
-};
-
-template <class T, class Count, class Notes>
-Outcome outcome_of(const Result<T>& read, Count count, Notes notes) {
-  if (!read) return {false, 0, read.error().to_line()};
-  return {true, count(*read), joined(notes(*read))};
-}
-
-Outcome read_as_log(const std::filesystem::path& path) {
-  return outcome_of(
-      read_log(path), [](const SensorLog& log) { return log.events.size(); },
-      [](const SensorLog& log) { return log.provenance.notes; });
-}
-
-// The same wherever the file lay.
-Outcome without_folder(Outcome outcome, const ScratchFolder& folder) {
-  const std::string path = folder.path().string();
-  for (std::size_t at = outcome.said.find(path); at != std::string::npos;
-       at = outcome.said.find(path)) {
-    outcome.said.erase(at, path.size());
-  }
-  return outcome;
-}
-
-TextFormat log_format(const std::string& name, const std::string& file, const std::string& text,
-                      const std::string& robot_toml = "") {
-  return {name, text, [=](const std::string& bytes) {
-            const ScratchFolder folder;
-            write_text(folder / file, bytes);
-            if (!robot_toml.empty()) write_text(folder / "a.robot.toml", robot_toml);
-            return without_folder(read_as_log(folder / file), folder);
-          }};
-}
-
-TextFormat trajectory_format(const std::string& name, const std::string& file,
-                             const std::string& text, const std::string& times = "") {
-  return {name, text, [=](const std::string& bytes) {
-            const ScratchFolder folder;
-            write_text(folder / file, bytes);
-            if (!times.empty()) write_text(folder / "a.times", times);
-            return outcome_of(
-                read_trajectory(folder / file),
-                [](const ReadTrajectory& read) { return read.trajectory.size(); },
-                [](const ReadTrajectory& read) { return read.notes; });
-          }};
-}
-
-TextFormat graph_format(const std::string& name, const std::string& file) {
-  return {name, read_text(golden_file("pose_graph/" + file)), [=](const std::string& bytes) {
-            const ScratchFolder folder;
-            write_text(folder / file, bytes);
-            return outcome_of(
-                read_pose_graph(folder / file),
-                [](const PoseGraph& graph) { return graph.vertices.size() + graph.edges.size(); },
-                [](const PoseGraph& graph) { return graph.notes; });
-          }};
-}
-
-TextFormat relations_format() {
-  return {"relations", read_text(golden_file("relations/two.relations")),
-          [](const std::string& bytes) {
-            const ScratchFolder folder;
-            write_text(folder / "a.relations", bytes);
-            return outcome_of(
-                read_relations(folder / "a.relations"),
-                [](const std::vector<Relation>& relations) { return relations.size(); },
-                [](const std::vector<Relation>&) { return std::vector<std::string>{}; });
-          }};
-}
-
-TextFormat map_format() {
-  const auto [yaml, image] = golden_parts("ros_map/small.yaml");
-  const std::string pixels = image;
-  return {"ros_map", yaml + "\n", [pixels](const std::string& bytes) {
-            const ScratchFolder folder;
-            write_text(folder / "a.yaml", bytes);
-            write_text(folder / "101", pixels);
-            return outcome_of(
-                read_ros_map(folder / "a.yaml"),
-                [](const GridMap& map) {
-                  return static_cast<std::size_t>(map.num_columns() * map.num_rows());
-                },
-                [](const GridMap&) { return std::vector<std::string>{}; });
-          }};
-}
-
-std::vector<TextFormat> text_formats() {
-  const auto [ticks_robot, ticks] = golden_parts("ticks/two-rows.dat");
-  const auto [kitti, times] = golden_parts("kitti/five.kitti");
-  return {
-      log_format("flaser", "a.clf", read_text(golden_file("carmen/flaser.clf"))),
-      log_format("robotlaser", "a.clf", read_text(golden_file("carmen/robotlaser.clf"))),
-      log_format("ticks", "a.dat", ticks, ticks_robot),
-      trajectory_format("tum", "a.tum", read_text(golden_file("tum/five.tum"))),
-      trajectory_format("kitti", "a.kitti", kitti + "\n", times),
-      trajectory_format("euroc", "a.csv", read_text(golden_file("euroc/ground-truth.csv"))),
-      trajectory_format("carmen_trajectory", "a.clf",
-                        read_text(golden_file("carmen_trajectory/flaser.clf"))),
-      graph_format("g2o", "square.g2o"),
-      graph_format("toro", "square.graph"),
-      relations_format(),
-      map_format(),
-  };
-}
 
 class EveryTextFormat : public ::testing::TestWithParam<TextFormat> {};
 
@@ -157,8 +35,6 @@ class EveryTextFormat : public ::testing::TestWithParam<TextFormat> {};
 class EveryLineFormat : public EveryTextFormat {};
 // Without ticks, which are whole numbers.
 class EveryDecimalFormat : public EveryTextFormat {};
-
-void PrintTo(const TextFormat& format, std::ostream* out) { *out << format.name; }
 
 std::vector<TextFormat> text_formats_without(const std::string& name) {
   std::vector<TextFormat> formats = text_formats();
@@ -194,22 +70,6 @@ TEST_P(EveryLineFormat, CutAnywhereIsRefusedOrNotedAndGivesNoMoreReadings) {
     if (cut.back() == '\n') continue;
     EXPECT_NE(outcome.said.find("the last line has no end"), std::string::npos) << cut;
   }
-}
-
-// Bytes of lines that say something; '#' would make a comment of them, which is no corruption.
-RC_GTEST_PROP(FormatDefects, AChangedByteIsRefusedOrKeepsTheNumberOfReadings, ()) {
-  static const std::vector<TextFormat> formats = text_formats();
-  const TextFormat& format = *rc::gen::elementOf(formats);
-  std::string text = format.text;
-  const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
-  const auto byte = static_cast<char>(*rc::gen::inRange(0, 256));
-  const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
-  RC_PRE(byte != '#' && text[line] != '#');
-  const Outcome whole = format.read(text);
-  text[at] = byte;
-  const Outcome changed = format.read(text);
-  RC_ASSERT(!changed.is_read || changed.num_readings == whole.num_readings);
-  RC_ASSERT(changed.is_read || changed.said.find('\n') == std::string::npos);
 }
 
 TEST_P(EveryLineFormat, AnEndlessLineIsRefusedWithOneShortLine) {
@@ -305,53 +165,6 @@ TEST(FormatDefects, StampsOfFewDigitsAreRefused) {
   write_text(folder / "a.relations", "1.1e9 2 0 0 0 0 0 0\n");
   EXPECT_NE(read_relations(folder / "a.relations").error().to_line().find("stamp '1.1e9'"),
             std::string::npos);
-}
-
-// The same log with every length in centimetres.
-SensorLog in_centimetres(SensorLog log) {
-  for (SensorEvent& event : log.events) {
-    auto* scan = std::get_if<LaserScan>(&event);
-    if (scan == nullptr) continue;
-    scan->range_max_m *= 100;
-    for (float& range_m : scan->ranges_m) range_m *= 100;
-  }
-  log.robot.lidar.range_max_m *= 100;
-  return log;
-}
-
-SensorLog in_degrees(SensorLog log) {
-  constexpr double kDegrees = 57.29577951308232;
-  for (SensorEvent& event : log.events) {
-    auto* scan = std::get_if<LaserScan>(&event);
-    if (scan == nullptr) continue;
-    scan->angle_min_rad *= kDegrees;
-    scan->angle_increment_rad *= kDegrees;
-  }
-  return log;
-}
-
-constexpr const char* kWrittenLogs[] = {"a.clf", "a.rawlog", "a.bag"};
-
-TEST(FormatDefects, RangesInCentimetresAreSuspiciousInEveryLogFormat) {
-  for (const char* name : kWrittenLogs) {
-    const ScratchFolder folder;
-    ASSERT_TRUE(write_log(in_centimetres(test::small_log()), folder / name));
-    const auto read = read_log(folder / name);
-    ASSERT_TRUE(read.has_value()) << read.error().to_line();
-    EXPECT_NE(joined(examine(*read).suspicions).find("centimetres or millimetres"),
-              std::string::npos)
-        << name;
-  }
-}
-
-TEST(FormatDefects, AnglesInDegreesAreRefusedInEveryLogFormat) {
-  for (const char* name : kWrittenLogs) {
-    const ScratchFolder folder;
-    ASSERT_TRUE(write_log(in_degrees(test::small_log()), folder / name));
-    const Outcome outcome = read_as_log(folder / name);
-    EXPECT_FALSE(outcome.is_read) << name;
-    EXPECT_NE(outcome.said.find("2 pi"), std::string::npos) << outcome.said;
-  }
 }
 
 Outcome read_lcm(std::int64_t jump_us, std::vector<std::string>* suspicions = nullptr) {

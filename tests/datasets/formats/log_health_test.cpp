@@ -153,6 +153,8 @@ TEST(LogHealth, SuspectsMillisecondsForSeconds) {
   change_each<WheelSample>(log, [](WheelSample& sample) { sample.stamp.nanoseconds *= 1000; });
   change_each<ImuSample>(log, [](ImuSample& sample) { sample.stamp.nanoseconds *= 1000; });
   expect_suspicion(log, "LiDAR: 100.000 s between readings; milliseconds for seconds?");
+  change_each<LaserScan>(log, [](LaserScan& scan) { scan.stamp.nanoseconds *= 1000; });
+  expect_suspicion(log, "LiDAR: 100000.000 s between readings; microseconds for seconds?");
   SensorLog short_log = sound_log();
   change_each<LaserScan>(short_log, [](LaserScan& scan) { scan.stamp.nanoseconds /= 1000; });
   expect_suspicion(short_log, "seconds for milliseconds?");
@@ -308,7 +310,9 @@ TEST(ReadLogAsFound, KeepsWhatReadLogRefusesAndKnowsItsLines) {
   EXPECT_FALSE(found->log.truth.has_value());
   const std::string notes = all_lines(found->log.provenance.notes);
   EXPECT_NE(notes.find("a.clf: line 3: stamp steps back by"), std::string::npos) << notes;
-  EXPECT_NE(notes.find("a.tum:1"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("a.tum"), std::string::npos) << notes;
+  ASSERT_TRUE(found->refused_truth.has_value());
+  EXPECT_EQ(found->refused_truth->where, (folder / "a.tum").string() + ":1");
   const LogHealth health = examine(found->log, {found->origins, found->origin_unit});
   EXPECT_NE(all_lines(health.defects).find("line 3, event 2: stamp steps back"), std::string::npos)
       << all_lines(health.defects);
@@ -321,6 +325,24 @@ TEST(ReadLogAsFound, RefusesWhatIsNoLog) {
   EXPECT_FALSE(read_log_as_found(folder / "a.clf").has_value());
   write_text(folder / "b.clf", "");
   EXPECT_FALSE(read_log_as_found(folder / "b.clf").has_value());
+}
+
+// Chords of 1 m: along the heading, across it, and on an arc of a quarter turn, whose chord is half
+// of the turn off the heading it begins with.
+TEST(LogHealth, SharesTheWayAcrossTheHeadingsByHand) {
+  SensorLog log;
+  const auto add = [&log](const Pose2& T_odom_base) {
+    const auto second = static_cast<std::int64_t>(log.events.size()) * 1'000'000'000;
+    log.events.emplace_back(WheelSample{{second}, T_odom_base, std::nullopt});
+    return examine(log).wheels->sideways_ratio;
+  };
+  const double half = std::sqrt(0.5);
+  add(Pose2(0, 0, 0));
+  EXPECT_DOUBLE_EQ(add(Pose2(1, 0, 0)), 0);
+  EXPECT_DOUBLE_EQ(add(Pose2(1, 1, 0)), 0.5);
+  EXPECT_NEAR(add(Pose2(1 + half, 1 + half, std::acos(-1) / 2)), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(add(Pose2(1 + half, 1.05 + half, 3)), 1.0 / 3, 1e-12) << "too short to count";
+  EXPECT_EQ(examine(log).wheels->num_chords, 3U);
 }
 
 }  // namespace

@@ -63,6 +63,14 @@ TEST(RobotToml, NamesTheLineOfASyntaxError) {
   EXPECT_NE(robot.error().to_line().find("file:2: "), std::string::npos);
 }
 
+TEST(RobotToml, AnOverrideWithoutAKeyIsRefused) {
+  for (const char* text : {"", "# nothing yet\n", "[lidar]\n[imu]\n"}) {
+    const auto stated = override_robot(RobotModel{}, text, "a.robot.toml");
+    ASSERT_FALSE(stated.has_value()) << text;
+    EXPECT_EQ(stated.error().to_line(), "a.robot.toml: states nothing; expected at least one key");
+  }
+}
+
 TEST(RobotToml, AnOverrideKeepsWhatItDoesNotName) {
   RobotModel base;
   base.wheels.track_m = 0.5;

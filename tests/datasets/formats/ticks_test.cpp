@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -223,6 +224,24 @@ TEST(Ticks, ReadLogRefusesStepsBackJumpsAndTicksWithoutWheels) {
   EXPECT_NE(without.error().to_line().find("a.robot.toml"), std::string::npos);
   write_text(folder / "b.dat", "");
   EXPECT_FALSE(read_log(folder / "b.dat").has_value());
+}
+
+TEST(Ticks, ALimitThatNobodyStatesIsNoted) {
+  const ScratchFolder folder;
+  write_text(folder / "a.dat", rows(5));
+  const std::string wheels =
+      "[wheels]\ntrack_m = 0.4\nleft_m_per_tick = 1e-3\nright_m_per_tick = 1e-3\n";
+  const auto says = [&folder](const std::string& robot_toml) {
+    write_text(folder / "a.robot.toml", robot_toml);
+    const auto read = read_log(folder / "a.dat");
+    EXPECT_TRUE(read.has_value()) << read.error().to_line();
+    const auto& notes = read->provenance.notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("tick logs state no limit: 30 m is assumed") == 0;
+    });
+  };
+  EXPECT_TRUE(says(wheels));
+  EXPECT_FALSE(says(wheels + "[lidar]\nrange_max_m = 4.0\n"));
 }
 
 }  // namespace

@@ -224,6 +224,7 @@ TEST(CarmenTrajectory, AnswersEachDefectWithItsLine) {
       {"FLASER 0 0 0 0 0 0 0 0.5 h 2", "not later"},
       {"FLASER 0 0 0 0 0 0 0 two h 2", "stamp 'two'"},
       {"GARBAGE 1", "'GARBAGE'"},
+      {"ODOM 0 0 0 0 0 0 1 h 1 FLASER 0 0 0 0 0 0 0 2 h 2", "FLASER within a line"},
   };
   for (const Defect& defect : defects) {
     expect_refused(

@@ -1,9 +1,14 @@
 // What is written is read again: by whom nothing is lost, and what a format cannot hold.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 
 #include "datasets/formats/log_io.hpp"
+#include "slam/core/rng.hpp"
+#include "slam/core/units.hpp"
 #include "tests/datasets/formats/golden_support.hpp"
 
 namespace corridor::formats {
@@ -44,6 +49,47 @@ TEST(WrittenLog, IsReadAgainInEveryFormat) {
   }
 }
 
+// Ends this process: with 0 if the log could not be written, for want of room, and nothing of it is
+// left.
+[[noreturn]] void write_where_files_end_at(std::uintmax_t num_bytes, const SensorLog& log,
+                                           const ScratchFolder& folder, const std::string& name) {
+  const rlimit limit{num_bytes, num_bytes};
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (setrlimit(RLIMIT_FSIZE, &limit) != 0) std::_Exit(2);
+  const auto refused = write_log(log, folder / name);
+  if (refused) std::_Exit(3);
+  const bool is_clear = refused.error().what.find("cannot be written: File too large") == 0 &&
+                        refused.error().where == (folder / name).string();
+  std::_Exit(is_clear && std::filesystem::is_empty(folder.path()) ? 0 : 1);
+}
+
+TEST(WrittenLogDeathTest, WithoutRoomIsAnErrorInEveryFormatAndLeavesNothing) {
+  // Longer than a chunk of a bag, whose readings are not compressible.
+  SensorLog log = small_log();
+  const LaserScan scan = std::get<LaserScan>(log.events.back());
+  Rng rng(1);
+  for (int i = 0; i < 1000; ++i) {
+    LaserScan next = scan;
+    next.stamp.nanoseconds += 100'000'000LL * (i + 1);
+    next.ranges_m.resize(360);
+    for (float& range_m : next.ranges_m) range_m = static_cast<float>(rng.uniform(0.1, 4.4));
+    next.is_valid.assign(360, 1);
+    log.events.emplace_back(std::move(next));
+  }
+  for (const char* name : {"a.clf", "a.clf.gz", "a.rawlog", "a.bag"}) {
+    const ScratchFolder whole;
+    ASSERT_TRUE(write_log(log, whole / name));
+    const std::uintmax_t num_bytes = std::filesystem::file_size(whole / name);
+    for (const std::uintmax_t room :
+         {std::uintmax_t{0}, std::uintmax_t{100}, num_bytes / 2, num_bytes - 1}) {
+      const ScratchFolder folder;
+      EXPECT_EXIT(write_where_files_end_at(room, log, folder, name), ::testing::ExitedWithCode(0),
+                  "")
+          << name << " with room for " << room << " of " << num_bytes << " bytes";
+    }
+  }
+}
+
 TEST(WrittenLog, CarmenKeepsTheWheelsPoseOfAScanThatStandsBeforeIt) {
   const SensorLog log = with_scans_first(small_log());
   EXPECT_EQ(readings_held(log, LogFormat::kCarmen),
@@ -67,6 +113,46 @@ TEST(WrittenLog, WithoutWheelsBecomesNoCarmenLog) {
   EXPECT_NE(refused.error().to_line().find("no wheel sample; expected odometry"),
             std::string::npos);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// 1081 beams of a quarter of a degree in a sweep of 25 ms: no figure of the fan is a 32-bit float.
+SensorLog with_fan(SensorLog log, double angle_min_rad) {
+  for (SensorEvent& event : log.events) {
+    auto* scan = std::get_if<LaserScan>(&event);
+    if (scan == nullptr) continue;
+    scan->angle_increment_rad = 0.25 * kRadPerDeg;
+    scan->angle_min_rad = angle_min_rad;
+    scan->duration_s = log.robot.lidar.scan_duration_s = 0.025;
+    scan->ranges_m.assign(1081, 1);
+    scan->is_valid.assign(1081, 1);
+  }
+  return log;
+}
+
+TEST(WrittenLog, RoundedAnglesAreLostOnlyWhereTheyTurnABeamByAMicroradian) {
+  const SensorLog log = with_fan(small_log(), -135 * kRadPerDeg);
+  for (const auto& [name, format] :
+       {std::pair("a.rawlog", LogFormat::kRawlog), std::pair("a.bag", LogFormat::kRosbag)}) {
+    const std::string losses = joined(losses_of_conversion(log, format));
+    EXPECT_EQ(losses.find("angle"), std::string::npos) << losses;
+    EXPECT_EQ(losses.find("sweep"), std::string::npos) << losses;
+    const ScratchFolder folder;
+    ASSERT_TRUE(write_log(log, folder / name));
+    const auto read = read_log(folder / name);
+    ASSERT_TRUE(read.has_value()) << read.error().to_line();
+    for (const SensorEvent& event : read->events) {
+      const auto* scan = std::get_if<LaserScan>(&event);
+      if (scan == nullptr) continue;
+      EXPECT_NEAR(scan->angle_rad(0), -135 * kRadPerDeg, 1e-6) << name;
+      EXPECT_NEAR(scan->angle_rad(1080), 135 * kRadPerDeg, 1e-6) << name;
+      EXPECT_NEAR(scan->duration_s, 0.025, 1e-6) << name;
+    }
+  }
+  const SensorLog turned = with_fan(small_log(), -135 * kRadPerDeg + 30 * 360 * kRadPerDeg);
+  EXPECT_NE(joined(losses_of_conversion(turned, LogFormat::kRosbag))
+                .find("4 scans have beams turned by up to "),
+            std::string::npos)
+      << joined(losses_of_conversion(turned, LogFormat::kRosbag));
 }
 
 TEST(WrittenLog, StampsCloserThanTheFormatsStepAreFound) {

@@ -35,16 +35,18 @@ std::vector<T> readings(const SensorLog& log) {
 }
 
 // Something that a seed draws once per log, and how to find it in that log.
-struct SpreadCase {
+struct DrawnValue {
   std::string name;
-  Scenario scenario;
   std::function<double(const RecordedRun&)> found;
   double mean = 0, sigma = 0;
 };
-// Over 64 logs: mean and standard deviation within four standard errors of the stated ones, so that
-// neither zero nor half of the stated spread passes.
-void expect_spread(const SpreadCase& spread);
+// Over 800 logs: mean and standard deviation of each value within four standard errors of the
+// stated ones, which are a tenth of the standard deviation: one that is 15 % off fails. The values
+// must be told apart in one and the same log.
+void expect_spreads(const Scenario& scenario, const std::vector<DrawnValue>& values);
 
+// Standard deviation of a uniform number between -half_range and half_range.
+double uniform_sigma(double half_range);
 // Parts of a value that four standard errors of a standard deviation from n samples make out.
 double four_sigma(double num_samples);
 

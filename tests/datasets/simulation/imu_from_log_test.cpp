@@ -1,6 +1,7 @@
 // Every error of the IMU, found in recorded logs.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@
 namespace corridor::simulation::testing {
 namespace {
 
+using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180;
@@ -69,29 +71,24 @@ LeverForces lever_forces(const RecordedRun& run) {
   return forces;
 }
 
-auto accel_scale(int axis) {
-  return [axis](const RecordedRun& run) {
-    const LeverForces forces = lever_forces(run);
-    double product = 0, square = 0;
-    for (std::size_t i = 0; i < forces.read.size(); ++i) {
-      product += forces.read[i][axis] * forces.expected[i][axis];
-      square += forces.expected[i][axis] * forces.expected[i][axis];
-    }
-    return product / square;
-  };
+// What the accelerometer makes of the force, 2x2: its scales times the turn back by its
+// misalignment.
+Matrix2d accel_matrix(const RecordedRun& run) {
+  const LeverForces forces = lever_forces(run);
+  Matrix2d products = Matrix2d::Zero(), squares = Matrix2d::Zero();
+  for (std::size_t i = 0; i < forces.read.size(); ++i) {
+    products += forces.read[i] * forces.expected[i].transpose();
+    squares += forces.expected[i] * forces.expected[i].transpose();
+  }
+  return products * squares.inverse();
 }
 
-// The IMU is turned by the angle from its reading to the force.
+auto accel_scale(int axis) {
+  return [axis](const RecordedRun& run) { return accel_matrix(run).row(axis).norm(); };
+}
 double misalignment_rad(const RecordedRun& run) {
-  const LeverForces forces = lever_forces(run);
-  double cross = 0, dot = 0;
-  for (std::size_t i = 0; i < forces.read.size(); ++i) {
-    const Vector2d& read = forces.read[i];
-    const Vector2d& expected = forces.expected[i];
-    cross += read.x() * expected.y() - read.y() * expected.x();
-    dot += read.dot(expected);
-  }
-  return std::atan2(cross, dot);
+  const Matrix2d matrix = accel_matrix(run);
+  return std::atan2(matrix(0, 1), matrix(0, 0));
 }
 
 Scenario with_imu(Scenario scenario, const std::function<void(ImuParams&)>& set) {
@@ -105,34 +102,37 @@ Scenario lever_spin(const std::function<void(ImuParams&)>& set) {
   return scenario;
 }
 
-class ImuSpread : public ::testing::TestWithParam<SpreadCase> {};
-TEST_P(ImuSpread, OverLogsIsTheStatedOne) { expect_spread(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(
-    FromLogs, ImuSpread,
-    ::testing::Values(
-        SpreadCase{"GyroBias",
-                   with_imu(honest_stay(1), [](auto& p) { p.gyro_bias_sigma_radps = 0.01; }),
-                   mean_of(kGyro), 0, 0.01},
-        SpreadCase{"AccelBiasX",
-                   with_imu(honest_stay(1), [](auto& p) { p.accel_bias_sigma_mps2 = 0.1; }),
-                   mean_of(kAccelX), 0, 0.1},
-        SpreadCase{"AccelBiasY",
-                   with_imu(honest_stay(1), [](auto& p) { p.accel_bias_sigma_mps2 = 0.1; }),
-                   mean_of(kAccelY), 0, 0.1},
-        SpreadCase{"GyroScale",
-                   with_imu(honest_stay(0.2, 1), [](auto& p) { p.gyro_scale_sigma = 0.02; }),
-                   gyro_scale, 1, 0.02},
-        SpreadCase{"AccelScaleX", lever_spin([](auto& p) { p.accel_scale_sigma = 0.02; }),
-                   accel_scale(0), 1, 0.02},
-        SpreadCase{"AccelScaleY", lever_spin([](auto& p) { p.accel_scale_sigma = 0.02; }),
-                   accel_scale(1), 1, 0.02},
-        SpreadCase{"Misalignment", lever_spin([](auto& p) { p.misalignment_sigma_deg = 1; }),
-                   misalignment_rad, 0, kRadPerDeg},
-        SpreadCase{"TiltX", with_imu(honest_stay(1), [](auto& p) { p.tilt_sigma_deg = 1; }),
-                   mean_of(kAccelX), 0, kGravity_mps2* std::sin(kRadPerDeg)},
-        SpreadCase{"TiltY", with_imu(honest_stay(1), [](auto& p) { p.tilt_sigma_deg = 1; }),
-                   mean_of(kAccelY), 0, kGravity_mps2* std::sin(kRadPerDeg)}),
-    [](const auto& given) { return given.param.name; });
+TEST(ImuSpread, OfBiasesOverLogsIsTheStatedOne) {
+  const Scenario scenario = with_imu(honest_stay(0.2), [](auto& p) {
+    p.gyro_bias_sigma_radps = 0.01;
+    p.accel_bias_sigma_mps2 = 0.1;
+  });
+  expect_spreads(scenario, {{"gyro", mean_of(kGyro), 0, 0.01},
+                            {"accel x", mean_of(kAccelX), 0, 0.1},
+                            {"accel y", mean_of(kAccelY), 0, 0.1}});
+}
+
+TEST(ImuSpread, OfTheTiltOverLogsIsTheStatedOne) {
+  const double sigma_mps2 = kGravity_mps2 * std::sin(kRadPerDeg);
+  expect_spreads(
+      with_imu(honest_stay(0.2), [](auto& p) { p.tilt_sigma_deg = 1; }),
+      {{"tilt x", mean_of(kAccelX), 0, sigma_mps2}, {"tilt y", mean_of(kAccelY), 0, sigma_mps2}});
+}
+
+TEST(ImuSpread, OfTheGyroScaleOverLogsIsTheStatedOne) {
+  expect_spreads(with_imu(honest_stay(0.2, 1), [](auto& p) { p.gyro_scale_sigma = 0.02; }),
+                 {{"gyro scale", gyro_scale, 1, 0.02}});
+}
+
+TEST(ImuSpread, OfAccelScalesAndMisalignmentOverLogsIsTheStatedOne) {
+  const Scenario scenario = lever_spin([](auto& p) {
+    p.accel_scale_sigma = 0.02;
+    p.misalignment_sigma_deg = 1;
+  });
+  expect_spreads(scenario, {{"accel scale x", accel_scale(0), 1, 0.02},
+                            {"accel scale y", accel_scale(1), 1, 0.02},
+                            {"misalignment", misalignment_rad, 0, kRadPerDeg}});
+}
 
 // An hour at rest, once more for each seed.
 std::vector<RecordedRun> hours(const std::function<void(ImuParams&)>& set, std::uint64_t num_logs) {
@@ -172,17 +172,21 @@ TEST(ImuFromLogs, WhiteNoiseHasTheStatedDensity) {
   }
 }
 
-TEST(ImuFromLogs, InstabilityIsTheBottomOfTheAllanDeviation) {
+// White noise would fall by a factor of 3.2 from 3 s to 30 s, a walk rise by as much.
+TEST(ImuFromLogs, InstabilityIsTheFlatBottomOfTheAllanDeviation) {
   const auto runs = hours(
       [](ImuParams& p) {
         p.gyro_instability_radps = 1e-3;
         p.accel_instability_mps2 = 5e-3;
       },
-      2);
+      4);
   for (const auto& [which, stated] : {std::pair{kGyro, 1e-3}, {kAccelX, 5e-3}, {kAccelY, 5e-3}}) {
-    // 0.664 B within a tenth.
-    EXPECT_NEAR(allan_deviation_at(runs, which, 10) / (0.664 * stated), 1,
-                0.1 + allan_interval(2, 10));
+    for (const double tau_s : {3.0, 10.0, 30.0}) {
+      // 0.664 B within a tenth.
+      EXPECT_NEAR(allan_deviation_at(runs, which, tau_s) / (0.664 * stated), 1,
+                  0.1 + allan_interval(4, tau_s))
+          << which << " at " << tau_s;
+    }
   }
 }
 
@@ -237,6 +241,22 @@ TEST(ImuFromLogs, VibrationIsTheStatedOneOnBothAxes) {
     EXPECT_NEAR(standard_deviation(values) / 0.3, 1,
                 four_sigma(static_cast<double>(values.size())));
   }
+}
+
+TEST(ImuFromLogs, VibrationGrowsWithSpeedFromNothingAtRest) {
+  const auto shaken = [](Scenario scenario) {
+    return with_imu(std::move(scenario), [](auto& p) { p.vibration_mps2 = 0.3; });
+  };
+  for (const double speed_mps : {0.25, 0.5}) {
+    Scenario scenario = shaken(honest_scenario());
+    scenario.drive.speed_min_mps = scenario.drive.speed_max_mps = speed_mps;
+    const auto values = while_cruising(recorded(scenario, 1), kAccelX);
+    EXPECT_NEAR(standard_deviation(values) / (0.3 * speed_mps), 1,
+                four_sigma(static_cast<double>(values.size())))
+        << speed_mps;
+  }
+  const RecordedRun at_rest = recorded(shaken(honest_stay(10)), 1);
+  EXPECT_EQ(root_mean_square(channel(at_rest.log, kAccelX)), 0);
 }
 
 TEST(ImuFromLogs, TiltChangesOverItsLengthOnBothAxes) {

@@ -107,6 +107,42 @@ Estimate range_limit_of(const std::vector<LoggedBeam>& beams) {
   return {farthest_m + half_gap_m, half_gap_m / kNumErrors};
 }
 
+Estimate lower_limit_of(const std::vector<LoggedBeam>& beams) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  double farthest_unseen_m = 0;
+  for (const LoggedBeam& beam : beams) {
+    if (beam.is_valid) {
+      nearest_m = std::min(nearest_m, beam.range_m);
+    } else {
+      farthest_unseen_m =
+          std::max(farthest_unseen_m, ray_end(beam.T_world_base, beam.angle_rad).range_m);
+    }
+  }
+  const double half_gap_m = (nearest_m - farthest_unseen_m) / 2;
+  return {nearest_m - half_gap_m, half_gap_m / kNumErrors};
+}
+
+// Between the most oblique wall that gives a reading and the least that gives none.
+Estimate seen_within_deg_of(const std::vector<LoggedBeam>& beams) {
+  double seen_deg = 0;
+  double unseen_deg = 90;
+  for (const LoggedBeam& beam : beams) {
+    const double incidence_deg =
+        std::atan(ray_end(beam.T_world_base, beam.angle_rad).tangent) / kDegree_rad;
+    double& limit_deg = beam.is_valid ? seen_deg : unseen_deg;
+    limit_deg =
+        beam.is_valid ? std::max(seen_deg, incidence_deg) : std::min(unseen_deg, incidence_deg);
+  }
+  const double half_gap_deg = (unseen_deg - seen_deg) / 2;
+  return {seen_deg + half_gap_deg, half_gap_deg / kNumErrors};
+}
+
+// Every wall of the room is of this.
+void build_of(const Material& material, Scenario& scenario) {
+  scenario.world.materials = {material};
+  scenario.world.material_of_surface.assign(scenario.world.walls.size(), 0);
+}
+
 // 36 edges: plates in a circle of 2 m around the origin, each over 10 degrees, in front of the
 // room.
 constexpr double kPlates_m = 2;
@@ -256,6 +292,20 @@ std::vector<Case> cases() {
       {"range_step_m", 0.05, [](Scenario& s) { s.lidar.range_step_m = 0.05; }, step_of},
       {"dropout_ratio", 0.07, [](Scenario& s) { s.lidar.dropout_ratio = 0.07; }, dropouts_of},
       {"range_max_m", 5.5, [](Scenario& s) { s.lidar.range_max_m = 5.5; }, range_limit_of},
+      {"range_min_m", 4.75, [](Scenario& s) { s.lidar.range_min_m = 4.75; }, lower_limit_of},
+      // A LiDAR of 11 m sees dark walls to 5.5 m.
+      {"range_factor", 0.5,
+       [](Scenario& s) {
+         s.lidar.range_max_m = 11;
+         build_of({.name = "dark", .range_factor = 0.5}, s);
+       },
+       [](const auto& beams) {
+         const Estimate limit_m = range_limit_of(beams);
+         return Estimate{limit_m.value / 11, limit_m.standard_error / 11};
+       }},
+      {"seen_within_deg", 25,
+       [](Scenario& s) { build_of({.name = "glass", .seen_within_deg = 25}, s); },
+       seen_within_deg_of},
       {"mixed_pixel_ratio", 0.3,
        [](Scenario& s) {
          put_at_origin(s);

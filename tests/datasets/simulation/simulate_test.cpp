@@ -9,6 +9,7 @@
 #include "datasets/simulation/ray_casting.hpp"
 #include "tests/datasets/simulation/from_log_support.hpp"
 #include "tests/datasets/simulation/simulation_support.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace corridor::simulation::testing {
 namespace {
@@ -252,6 +253,27 @@ TEST(Simulate, TruthNamesTheArmsAsDegenerateWhereTheLidarSeesNoEnd) {
     }
   }
   EXPECT_GE(simulated.truth.degenerate->size(), 2u);
+}
+
+TEST(Simulate, ARouteFromWhichNoScanSeesAWallIsRefused) {
+  const ::corridor::testing::ScratchFolder folder;
+  const auto beside = [&folder](const std::string& route_m) {
+    const auto scenario = read_scenario(
+        folder.write("beside.toml",
+                     "[world]\npolygons = [{ points_m = [[0, 0], [10, 0], [10, 4], [0, 4]] }]\n"
+                     "route_m = " +
+                         route_m + "\n"));
+    EXPECT_TRUE(scenario.has_value()) << scenario.error().to_line();
+    return simulate(*scenario, 1);
+  };
+  const auto refused = beside("[[20, 20], [28, 20]]");
+  ASSERT_FALSE(refused.has_value());
+  const std::string line = refused.error().to_line();
+  EXPECT_NE(line.find("beside-s1: none of "), std::string::npos) << line;
+  EXPECT_NE(line.find(" scans sees a wall on the way from (2"), std::string::npos) << line;
+  EXPECT_NE(line.find("at most lidar.range_max_m = 4.5 m away"), std::string::npos) << line;
+  // Past the room and away from it: what is blind in part is what a LiDAR is.
+  EXPECT_TRUE(beside("[[2, 7], [28, 20]]").has_value());
 }
 
 TEST(Simulate, LongRangeLidarIsNeverDegenerate) {

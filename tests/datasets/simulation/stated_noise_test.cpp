@@ -81,6 +81,28 @@ TEST(StatedRangeNoise, AddsTheSquaresOfWhatTheOtherErrorsDoTypically) {
   EXPECT_NEAR(stated_range_sigma_m(params), std::sqrt(9 + 256 + 25 + 400 / 12.0) * 1e-3, 1e-12);
 }
 
+// Half of the limits that the data sheets give, at the ranges for which they give them.
+TEST(StatedRangeNoise, OfThePresetsIsHalfOfTheirDataSheetsLimits) {
+  struct Limit {
+    std::string preset;
+    double range_m, accuracy_m;
+  };
+  const ::corridor::testing::ScratchFolder folder;
+  for (const Limit& limit : {Limit{"urg-04lx", 1, 0.01},
+                             {"urg-04lx", 4, 0.04},
+                             {"utm-30lx", 10, 0.03},
+                             {"utm-30lx", 30, 0.05}}) {
+    const auto scenario =
+        read_scenario(folder.write("x.toml", "[lidar]\npreset = \"" + limit.preset + "\"\n"));
+    ASSERT_TRUE(scenario) << scenario.error().to_line();
+    const LidarParams& lidar = scenario->lidar;
+    EXPECT_NEAR(std::hypot(lidar.range_sigma_m, lidar.range_sigma_ratio * limit.range_m) /
+                    (limit.accuracy_m / 2),
+                1, 0.03)
+        << limit.preset << " at " << limit.range_m << " m";
+  }
+}
+
 TEST(StatedRangeNoise, IsThatOfTheLogForEveryPreset) {
   const ::corridor::testing::ScratchFolder folder;
   for (const std::string preset : {"urg-04lx", "rplidar-a1", "utm-30lx"}) {

@@ -38,22 +38,24 @@ TEST(Truth, WhatIsWrittenIsReadBackToTheLastBit) {
 
 TEST(Truth, NamesScansThatSeeNothingWithoutADirection) {
   const ScratchFolder folder;
-  Scenario scenario;  // stands 2 m from every wall or farther
-  scenario.lidar.range_max_m = 1.5;
-  scenario.drive.stand_s = 1;
-  scenario.drive.stays = true;
+  Scenario scenario;  // away from its only wall
+  scenario.world = world_of({{{0, 0}, {0, 10}}});
+  scenario.world.route_m = {{3, 5}, {12, 5}};
   Simulated simulated = simulated_log(scenario, 1);
-  ASSERT_EQ(simulated.truth.degenerate->size(), 1u);
-  EXPECT_FALSE(simulated.truth.degenerate->front().direction_rad);
-  simulated.truth.degenerate->push_back({2, 3, 0.5});
-  simulated.truth.degenerate->push_back({3.1, 4, std::nullopt});
+  auto& intervals = *simulated.truth.degenerate;
+  ASSERT_EQ(intervals.size(), 2u);
+  EXPECT_TRUE(intervals[0].direction_rad);
+  EXPECT_FALSE(intervals[1].direction_rad);
+  const double end_s = intervals[1].end_s;
+  intervals.push_back({end_s + 1, end_s + 2, 0.5});
+  intervals.push_back({end_s + 3, end_s + 4, std::nullopt});
   const auto again = read_truth(folder.write("log.truth.toml", truth_toml(simulated)));
   ASSERT_TRUE(again) << again.error().to_line();
-  ASSERT_EQ(again->degenerate->size(), 3u);
-  EXPECT_FALSE((*again->degenerate)[0].direction_rad);
-  EXPECT_EQ((*again->degenerate)[0].end_s, simulated.truth.degenerate->front().end_s);
-  EXPECT_EQ((*again->degenerate)[1].direction_rad, 0.5);
-  EXPECT_FALSE((*again->degenerate)[2].direction_rad);
+  ASSERT_EQ(again->degenerate->size(), 4u);
+  EXPECT_FALSE((*again->degenerate)[1].direction_rad);
+  EXPECT_EQ((*again->degenerate)[1].end_s, end_s);
+  EXPECT_EQ((*again->degenerate)[2].direction_rad, 0.5);
+  EXPECT_FALSE((*again->degenerate)[3].direction_rad);
 }
 
 TEST(Truth, IsTheWorldFileOfItsLog) {

@@ -1,4 +1,4 @@
-// The world that a seed draws, found in recorded logs.
+// The world that a seed draws, found in recorded logs by what the LiDAR sees of its walls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,58 +10,56 @@
 namespace corridor::simulation::testing {
 namespace {
 
-// The honest robot in the paper's corridor.
-Scenario corridor_drive(const std::function<void(Scenario&)>& set) {
-  Scenario scenario = honest_scenario();
-  scenario.world = make_corridor({});
-  scenario.drive.speed_min_mps = scenario.drive.speed_max_mps = 0.6;
-  set(scenario);
+using Eigen::Vector2d;
+
+// A robot that stands this far from the left end and looks along the first arm.
+Scenario stay_in(const CorridorShape& shape, double from_left_end_m) {
+  Scenario scenario = honest_stay(0.2);
+  scenario.world = make_corridor(shape);
+  scenario.lidar.num_beams = 64;
+  scenario.drive.end_margin_m = from_left_end_m;
   return scenario;
 }
 
-Scenario corridor_stay() {
-  return corridor_drive([](Scenario& s) {
-    s.draw.length_spread = 0.1;
-    s.drive.stays = true;
-    s.drive.stand_s = 0.2;
-  });
-}
-
-// Of a uniform number, -half_range to half_range.
-double sigma_of(double half_range) { return half_range / std::sqrt(3.0); }
-
-// The robot looks along the first arm: two of its four beams meet the two walls at 45 deg, ahead.
-double width_m(const RecordedRun& run) {
+// Where the beam nearest to a direction ends, in the base frame, whose x axis is along the arm.
+Vector2d end_m(const RecordedRun& run, double direction_deg) {
   const LaserScan scan = readings<LaserScan>(run.log).front();
-  return (scan.ranges_m[1] + scan.ranges_m[2]) / std::numbers::sqrt2;
+  const double direction_rad = direction_deg * std::numbers::pi / 180;
+  const double index = std::round((direction_rad - scan.angle_min_rad) / scan.angle_increment_rad);
+  return scan.point_base_m(static_cast<std::size_t>(index));
 }
 
-// Of the way that it drives at last, against the first arm.
+double first_arm_m(const RecordedRun& run) { return end_m(run, 0).x() - end_m(run, 179).x(); }
+double second_arm_m(const RecordedRun& run) { return end_m(run, 90).y() - end_m(run, -90).y(); }
+double width_m(const RecordedRun& run) { return end_m(run, 135).y() - end_m(run, -135).y(); }
+
+// Both arms so short and wide that a robot in the square between them sees all six walls.
+constexpr CorridorShape kWide{.a_m = 12, .b_m = 12, .c_m = 8};
+constexpr double kInTheSquare_m = 6;
+
+TEST(WorldSpread, OfLengthsOverLogsIsTheStatedOne) {
+  Scenario scenario = stay_in(kWide, kInTheSquare_m);
+  scenario.draw.length_spread = 0.05;
+  const double part = uniform_sigma(0.05);
+  expect_spreads(scenario, {{"first arm", first_arm_m, kWide.b_m, kWide.b_m * part},
+                            {"second arm", second_arm_m, kWide.a_m, kWide.a_m * part},
+                            {"width", width_m, kWide.c_m, kWide.c_m * part}});
+}
+
+// Of the right outer wall against the first arm. The way of the robot would not do: from where it
+// has turned, past the corner, it heads straight for the last waypoint, not along the wall.
 double alpha_deg(const RecordedRun& run) {
-  const auto& poses = run.log.truth->poses();
-  const Eigen::Vector2d way_m =
-      poses.back().T_map_base.translation_m() - poses[poses.size() - 20].T_map_base.translation_m();
-  return 180 - std::atan2(way_m.y(), way_m.x()) * 180 / std::numbers::pi;
+  const Vector2d wall_m = end_m(run, 3) - end_m(run, -3);
+  return 180 - std::atan2(wall_m.y(), wall_m.x()) * 180 / std::numbers::pi;
 }
 
-class WorldSpread : public ::testing::TestWithParam<SpreadCase> {};
-TEST_P(WorldSpread, OverLogsIsTheStatedOne) { expect_spread(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(
-    FromLogs, WorldSpread,
-    ::testing::Values(
-        SpreadCase{"Width", corridor_stay(), width_m, 5, 5 * sigma_of(0.1)},
-        SpreadCase{"FirstArm", corridor_stay(),
-                   [](const RecordedRun& run) { return run.truth.world.corridor->b_m; }, 21,
-                   21 * sigma_of(0.1)},
-        SpreadCase{"SecondArm", corridor_stay(),
-                   [](const RecordedRun& run) { return run.truth.world.corridor->a_m; }, 14.5,
-                   14.5 * sigma_of(0.1)},
-        SpreadCase{"Alpha", corridor_drive([](Scenario& s) {
-                     s.world = make_corridor({.a_m = 12, .b_m = 12});
-                     s.draw.alpha_spread_deg = 20;
-                   }),
-                   alpha_deg, 90, sigma_of(20)}),
-    [](const auto& given) { return given.param.name; });
+constexpr double kInTheFirstArm_m = 9;  // sees 1 m of that wall between two beams
+
+TEST(WorldSpread, OfTheAngleOverLogsIsTheStatedOne) {
+  Scenario scenario = stay_in({}, kInTheFirstArm_m);
+  scenario.draw.alpha_spread_deg = 20;
+  expect_spreads(scenario, {{"alpha", alpha_deg, 90, uniform_sigma(20)}});
+}
 
 }  // namespace
 }  // namespace corridor::simulation::testing
