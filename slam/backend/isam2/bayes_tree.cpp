@@ -39,6 +39,7 @@ int BayesTree::add_variable(int dimension) {
   clique_of_.push_back(kNone);
   rows_.push_back(kNone);
   changed_in_.push_back(0);
+  is_listed_.push_back(false);
   waiting_.push_back(variable);
   return variable;
 }
@@ -47,6 +48,8 @@ void BayesTree::forget(int variable) {
   CORRIDOR_EXPECT(clique_of(variable) == kNone);
   std::erase(waiting_, variable);
   std::erase(detached_, variable);
+  if (is_listed_[to_index(variable)]) std::erase(changed_, variable);
+  is_listed_[to_index(variable)] = false;
   free_variables_.push_back(variable);
 }
 

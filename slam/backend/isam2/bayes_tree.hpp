@@ -86,8 +86,9 @@ class BayesTree {
   void solve_all();
   // The cliques from the root to the one that eliminates the variable, exactly.
   void solve_path(int variable);
-  // Variables that the last call of the three gave another delta.
+  // Variables that any of the three gave another delta since forget_changes(), each once.
   [[nodiscard]] std::span<const int> changed() const { return changed_; }
+  void forget_changes();
 
   // The step of a variable from its linearisation point, dimension() numbers.
   [[nodiscard]] const double* delta(int variable) const {
@@ -127,6 +128,7 @@ class BayesTree {
   std::vector<int> dimensions_, first_rows_, clique_of_, rows_;
   std::vector<int> free_variables_;
   std::vector<int> changed_in_;  // number of the pass that last gave it another delta
+  std::vector<bool> is_listed_;  // among changed_
   std::vector<double> deltas_;
   // By clique.
   std::vector<Clique> cliques_;

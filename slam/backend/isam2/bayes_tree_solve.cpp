@@ -47,13 +47,13 @@ void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
   for (const int variable : clique.frontals()) {
     std::copy_n(from, dimension(variable), deltas_.data() + first_rows_[to_index(variable)]);
     from += dimension(variable);
-    changed_.push_back(variable);
     changed_in_[to_index(variable)] = pass_;
+    if (!is_listed_[to_index(variable)]) changed_.push_back(variable);
+    is_listed_[to_index(variable)] = true;
   }
 }
 
 void BayesTree::solve_changed(double threshold) {
-  changed_.clear();
   ++pass_;
   open_stack_ = roots_;
   while (!open_stack_.empty()) {
@@ -72,10 +72,14 @@ void BayesTree::solve_changed(double threshold) {
   }
 }
 
+void BayesTree::forget_changes() {
+  for (const int variable : changed_) is_listed_[to_index(variable)] = false;
+  changed_.clear();
+}
+
 void BayesTree::solve_all() { solve_changed(-1); }
 
 void BayesTree::solve_path(int variable) {
-  changed_.clear();
   open_stack_.clear();
   for (int number = clique_of(variable); number != kNone; number = at(number).parent) {
     open_stack_.push_back(number);

@@ -67,21 +67,25 @@ class Isam2 final : public BackEnd {
   BackEndReport solve() override {
     BackEndReport report;
     if (graph_.num_factors() == 0) return finished(report);
-    report.chi2 = report.chi2_initial = graph_.cost(estimate());
+    const Values before_all = estimate();
+    report.chi2 = report.chi2_initial = graph_.cost(before_all);
     report.status = SolveStatus::kMaxIterations;
     while (report.num_iterations < params_.max_iterations) {
       for (const Key key : linearization_.keys()) mark(index_.of(key));
       relinearize(report);
       if (!eliminate(report)) break;
-      tree_.solve_all();
       is_estimate_current_ = false;
       ++report.num_iterations;
       const double before = std::exchange(report.chi2, graph_.cost(estimate()));
-      if (!std::isfinite(report.chi2)) report.status = SolveStatus::kNotFinite;
+      if (!std::isfinite(report.chi2)) {
+        report.status = SolveStatus::kNotFinite;
+        set_values(before_all);
+        break;
+      }
       if (std::abs(before - report.chi2) <= params_.min_relative_decrease * report.chi2) {
         report.status = SolveStatus::kConverged;
+        break;
       }
-      if (report.status != SolveStatus::kMaxIterations) break;
     }
     return finished(report);
   }
@@ -299,6 +303,7 @@ class Isam2 final : public BackEnd {
       const auto kind = static_cast<std::size_t>(index_.keys()[to_index(variable)].kind);
       if (step > squared_threshold_[kind]) mark(variable);
     }
+    tree_.forget_changes();
   }
 
   // delta^T H_vv delta.
