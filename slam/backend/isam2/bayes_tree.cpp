@@ -15,13 +15,8 @@ bool holds(std::span<const int> variables, int variable) {
   return std::find(variables.begin(), variables.end(), variable) != variables.end();
 }
 
-// Ordering, planning, linearising and assembling one variable take as long as this many operations
-// of the elimination (backend/isam2/solve: some 0.5 us beside 10 Gflop/s).
-constexpr double kCostPerVariable = 5000;
-
-double cost_of(double num_pivots, double num_below, double num_variables) {
-  return num_pivots * (num_pivots * num_pivots / 3 + num_below * (num_pivots + num_below)) +
-         kCostPerVariable * num_variables;
+double flops_of(double num_pivots, double num_below) {
+  return num_pivots * (num_pivots * num_pivots / 3 + num_below * (num_pivots + num_below));
 }
 
 }  // namespace
@@ -66,7 +61,7 @@ void BayesTree::touch_path(int number) {
   for (; number != kNone && !at(number).is_touched; number = at(number).parent) {
     at(number).is_touched = true;
     touched_.push_back(number);
-    touched_cost_ += at(number).cost;
+    num_touched_flops_ += at(number).num_flops;
   }
 }
 
@@ -102,14 +97,14 @@ void BayesTree::detach() {
   for (const int number : touched_) drop(number);
   std::erase_if(roots_, [&](int root) { return at(root).num_frontals == 0; });
   touched_.clear();
-  touched_cost_ = 0;
+  num_touched_flops_ = 0;
   std::sort(detached_.begin(), detached_.end());
 }
 
 void BayesTree::drop(int number) {
   Clique& clique = at(number);
   for (const int variable : clique.frontals()) clique_of_[to_index(variable)] = kNone;
-  cost_ -= clique.cost;
+  num_flops_ -= clique.num_flops;
   memory_.give_back(clique.memory,
                     Front::memory_size(clique.front.num_pivots(), clique.front.num_below()));
   clique.variables.clear();
@@ -182,8 +177,8 @@ int BayesTree::make_clique(const linear::Supernode& node) {
   clique.is_solved = clique.are_children_due = false;
   clique.memory = memory_.take(Front::memory_size(num_pivots, num_below));
   clique.front = Front(clique.memory, num_pivots, num_below);
-  clique.cost = cost_of(num_pivots, num_below, clique.num_frontals);
-  cost_ += clique.cost;
+  clique.num_flops = flops_of(num_pivots, num_below);
+  num_flops_ += clique.num_flops;
   return number;
 }
 

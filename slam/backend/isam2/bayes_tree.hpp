@@ -32,7 +32,7 @@ class BayesTree {
     bool are_children_due = false;  // solved without its children
     double* memory = nullptr;
     Front front;
-    double cost = 0;
+    double num_flops = 0;
 
     [[nodiscard]] std::span<const int> frontals() const {
       return std::span(variables).first(static_cast<std::size_t>(num_frontals));
@@ -52,10 +52,10 @@ class BayesTree {
   void touch(int variable);
   // Every clique that holds the variable, and all above.
   void touch_everywhere(int variable);
-  // What it costs to eliminate the touched cliques anew, and the whole tree: floating-point
-  // operations, with a share for ordering and assembly per variable.
-  [[nodiscard]] double touched_cost() const { return touched_cost_; }
-  [[nodiscard]] double cost() const { return cost_; }
+  // Floating-point operations that the touched cliques took.
+  [[nodiscard]] double num_touched_flops() const { return num_touched_flops_; }
+  // Of the whole tree.
+  [[nodiscard]] double num_flops() const { return num_flops_; }
 
   // Takes the touched cliques out.
   void detach();
@@ -134,7 +134,7 @@ class BayesTree {
   std::vector<Clique> cliques_;
   std::vector<int> free_cliques_, roots_;
   FrontMemory memory_;
-  double cost_ = 0, touched_cost_ = 0;
+  double num_flops_ = 0, num_touched_flops_ = 0;
   // Of the update under way.
   std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_, open_stack_;
   std::vector<int> first_factor_of_, factors_of_;  // sets of every new clique, in compressed rows

@@ -51,9 +51,8 @@ class Isam2 final : public BackEnd {
     report.new_factor_ids = add(std::move(new_factors), new_values);
     report.chi2_initial = std::numeric_limits<double>::quiet_NaN();
     if (graph_.num_factors() == 0) return finished(report);
-    const double max_cost = params_.max_relinearized_share * tree_.cost();
     do {
-      relinearize(max_cost, report);
+      relinearize(report);
       if (!eliminate(report)) return finished(report);
       tree_.solve_changed(params_.wildfire);
       mark_far_steps();
@@ -73,7 +72,7 @@ class Isam2 final : public BackEnd {
     report.status = SolveStatus::kMaxIterations;
     while (report.num_iterations < params_.max_iterations) {
       for (const Key key : linearization_.keys()) mark(index_.of(key));
-      relinearize(std::numeric_limits<double>::infinity(), report);
+      relinearize(report);
       if (!eliminate(report)) break;
       is_estimate_current_ = false;
       ++report.num_iterations;
@@ -224,25 +223,17 @@ class Isam2 final : public BackEnd {
     marked_.push_back(variable);
   }
 
-  // Moves the linearisation points of marked variables to their estimates, the longest steps first,
-  // until eliminating what they touch costs `max_cost`; the rest stays marked.
-  void relinearize(double max_cost, BackEndReport& report) {
-    order_.clear();
-    for (const int variable : marked_) order_.emplace_back(-squared_step(variable), variable);
-    std::sort(order_.begin(), order_.end());
-    marked_.clear();
-    for (const auto& [step, variable] : order_) {
-      if (tree_.touched_cost() > max_cost) {
-        marked_.push_back(variable);
-        continue;
-      }
+  // Moves the linearisation point of every marked variable to its estimate.
+  void relinearize(BackEndReport& report) {
+    for (const int variable : marked_) {
       is_marked_[to_index(variable)] = false;
       linearization_.retract(index_.keys()[to_index(variable)], tree_.delta(variable));
       tree_.clear_delta(variable);
       tree_.touch_everywhere(variable);
       forget_information_around(variable);
-      ++report.num_relinearized;
     }
+    report.num_relinearized += static_cast<std::int64_t>(marked_.size());
+    marked_.clear();
   }
 
   void forget_information_around(int variable) {
@@ -364,7 +355,6 @@ class Isam2 final : public BackEnd {
   std::vector<FactorId> collected_;
   VariableSets sets_;
   std::vector<int> variables_, newest_;
-  std::vector<std::pair<double, int>> order_;  // of marked variables: minus the squared step
 };
 
 }  // namespace

@@ -22,11 +22,8 @@ struct Isam2Params {
   double relinearize_wheel_scale = 1;
   double wildfire = 0.1;    // change that is passed on to a clique's children [standard deviations]
   double repeat_step = 30;  // step after which the update does another round [standard deviations]
-  // Relinearisation of one update goes on until the elimination costs this share of eliminating
-  // everything; what is left waits for the next update.
-  double max_relinearized_share = 0.6;
-  int max_rounds = 2;                   // of one update
-  int num_last = 10;                    // newest variables, which are eliminated last
+  int max_rounds = 2;       // of one update
+  int num_last = 10;        // newest variables, which are eliminated last
   int max_iterations = 100;             // of solve()
   double min_relative_decrease = 1e-9;  // of the cost, at which solve() stops
 
@@ -45,9 +42,6 @@ struct Isam2Params {
       p.wildfire);
     v(ParamInfo{"repeat_step", "1", "step in sigmas after which an update does another round", 0},
       p.repeat_step);
-    v(ParamInfo{"max_relinearized_share", "1",
-                "relinearisation of an update stops at this share of a whole elimination", 0, 1},
-      p.max_relinearized_share);
     v(ParamInfo{"max_rounds", "1", "limit of rounds of one update", 1, 100}, p.max_rounds);
     v(ParamInfo{"num_last", "1", "newest variables that are eliminated last", 1, 1000}, p.num_last);
     v(ParamInfo{"max_iterations", "1", "limit of one solve()", 1, 1000}, p.max_iterations);
