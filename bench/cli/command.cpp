@@ -66,10 +66,6 @@ Result<std::uint64_t> seed_from_text(const std::string& text) {
   return fail(ErrorCode::kInvalid, text, "--seed", "a whole number from 0 to 18446744073709551615");
 }
 
-std::string counted(std::size_t count, const char* one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
-
 std::string text_table(std::vector<std::vector<std::string>> rows) {
   std::vector<std::size_t> widths;
   for (auto& row : rows) {

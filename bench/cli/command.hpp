@@ -50,9 +50,6 @@ Result<void> check_parent_folder(const std::filesystem::path& file);
 // A seed, all digits of which are used; the Error says the range.
 Result<std::uint64_t> seed_from_text(const std::string& text);
 
-// "1 defect", "2 defects".
-std::string counted(std::size_t count, const char* one);
-
 // Columns padded with blanks, as wide as needed; the first row is the head.
 std::string text_table(std::vector<std::vector<std::string>> rows);
 

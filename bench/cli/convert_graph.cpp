@@ -5,6 +5,7 @@
 #include "bench/runner/exit_code.hpp"
 #include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
+#include "slam/core/counted.hpp"
 
 namespace corridor::cli {
 

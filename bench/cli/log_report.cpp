@@ -11,6 +11,7 @@
 #include "bench/cli/command.hpp"
 #include "bench/runner/printable.hpp"
 #include "datasets/formats/robot_toml.hpp"
+#include "slam/core/counted.hpp"
 #include "slam/core/units.hpp"
 
 namespace corridor::cli {

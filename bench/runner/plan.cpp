@@ -43,11 +43,8 @@ Result<DataItem> dataset_item(const std::string& source, const catalog::DataDirs
   const Result<catalog::LoadedDataset> loaded = load_scorable_dataset(source, dirs);
   if (!loaded) return tl::make_unexpected(loaded.error());
   const bool is_name = loaded->name == source;
-  return DataItem{DataKind::kRecorded,
-                  loaded->name,
-                  is_name ? source : absolute_source(source),
-                  loaded->digest,
-                  {loaded->log.num_wheel_samples() > 0, loaded->log.num_imu_samples() > 0}};
+  return DataItem{DataKind::kRecorded, loaded->name, is_name ? source : absolute_source(source),
+                  loaded->digest, sensors_of(loaded->log)};
 }
 
 class Planner {

@@ -29,8 +29,7 @@ using results::RunResult;
 Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const CaseData& data) {
   const Result<SystemInfo> info = find_system(spec.system);
   if (!info) return tl::make_unexpected(info.error());
-  const LogSensors sensors{data.log.num_wheel_samples() > 0, data.log.num_imu_samples() > 0};
-  if (const auto missing = missing_sensor(*info, sensors)) {
+  if (const auto missing = missing_sensor(*info, sensors_of(data.log))) {
     return fail(ErrorCode::kInvalid, fmt::format("system {} needs {}", spec.system, *missing),
                 spec.dataset, "a log with readings of each sensor that it needs");
   }

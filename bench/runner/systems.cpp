@@ -140,6 +140,10 @@ bool SystemInfo::has_profile(std::string_view profile) const {
                      [profile](const ProfileInfo& info) { return info.name == profile; });
 }
 
+LogSensors sensors_of(const SensorLog& log) {
+  return {log.num_wheel_samples() > 0, log.num_imu_samples() > 0};
+}
+
 std::optional<std::string> missing_sensor(const SystemInfo& info, const LogSensors& sensors) {
   if (info.needs_wheels && !sensors.has_wheels) return "wheels";
   if (info.needs_imu && !sensors.has_imu) return "an IMU";

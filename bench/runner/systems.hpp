@@ -13,6 +13,7 @@
 #include "slam/core/params.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/robot_model.hpp"
+#include "slam/core/sensor_log.hpp"
 #include "slam/core/slam_system.hpp"
 
 namespace corridor::runner {
@@ -56,6 +57,8 @@ struct LogSensors {
   bool has_wheels = true;
   bool has_imu = true;
 };
+
+LogSensors sensors_of(const SensorLog& log);
 
 // What the system needs and such a log does not have: "wheels", "an IMU".
 std::optional<std::string> missing_sensor(const SystemInfo& info, const LogSensors& sensors);

@@ -11,6 +11,7 @@
 #include "reports/tables/paper_world.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/timing.hpp"
+#include "slam/core/counted.hpp"
 
 namespace corridor::html {
 namespace {
@@ -145,13 +146,12 @@ void append_unscored(const Cases& cases, std::vector<std::string>& sentences) {
 
 // What the runner noted about the scores, once for all cases that it holds for.
 void append_score_notes(const Cases& cases, std::vector<std::string>& sentences) {
-  std::map<std::pair<std::string, std::string>, int> num_cases;
+  std::map<std::pair<std::string, std::string>, std::size_t> num_cases;
   for (const Case& entry : cases.all()) {
     for (const std::string& note : entry.result.notes) ++num_cases[{entry.result.dataset, note}];
   }
   for (const auto& [key, num] : num_cases) {
-    sentences.push_back(
-        fmt::format("{}: {} ({} case{})", key.first, key.second, num, num == 1 ? "" : "s"));
+    sentences.push_back(fmt::format("{}: {} ({})", key.first, key.second, counted(num, "case")));
   }
 }
 

@@ -14,6 +14,7 @@
 #include "reports/html/reproduce.hpp"
 #include "reports/html/verdict.hpp"
 #include "reports/tables/writers.hpp"
+#include "slam/core/counted.hpp"
 
 namespace corridor::html {
 namespace {
@@ -190,11 +191,6 @@ std::set<std::string> revisions(const Cases& cases) {
   std::set<std::string> names;
   for (const Case& entry : cases.all()) names.insert(entry.result.git_revision);
   return names;
-}
-
-// "3 cases", "1 case".
-std::string counted(std::size_t count, const std::string& thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 std::string subtitle(const Cases& cases) {
