@@ -1,6 +1,7 @@
 #include "slam/backend/isam2/bayes_tree.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -13,10 +14,6 @@ namespace {
 
 bool holds(std::span<const int> variables, int variable) {
   return std::find(variables.begin(), variables.end(), variable) != variables.end();
-}
-
-double flops_of(double num_pivots, double num_below) {
-  return num_pivots * (num_pivots * num_pivots / 3 + num_below * (num_pivots + num_below));
 }
 
 }  // namespace
@@ -61,25 +58,64 @@ void BayesTree::touch_path(int number) {
   for (; number != kNone && !at(number).is_touched; number = at(number).parent) {
     at(number).is_touched = true;
     touched_.push_back(number);
-    num_touched_flops_ += at(number).num_flops;
+  }
+}
+
+void BayesTree::unsettle_path(int number) {
+  for (; number != kNone && !at(number).is_unsettled; number = at(number).parent) {
+    at(number).is_unsettled = true;
+    ++num_unsettled_;
+  }
+}
+
+// They are connected: the one that eliminates the variable, and some below it. Where that one is
+// taken out, some orphans and what hangs below them.
+template <class Visit>
+void BayesTree::for_each_holder(int variable, const Visit& visit) {
+  holders_.clear();
+  if (clique_of(variable) != kNone) {
+    holders_.push_back(clique_of(variable));
+  } else {
+    std::copy_if(orphans_.begin(), orphans_.end(), std::back_inserter(holders_),
+                 [&](int orphan) { return holds(at(orphan).separator(), variable); });
+  }
+  while (!holders_.empty()) {
+    const int holder = holders_.back();
+    holders_.pop_back();
+    visit(holder);
+    for (int child = at(holder).first_child; child != kNone; child = at(child).next_sibling) {
+      if (holds(at(child).separator(), variable)) holders_.push_back(child);
+    }
   }
 }
 
 void BayesTree::touch(int variable) { touch_path(clique_of(variable)); }
 
 void BayesTree::touch_everywhere(int variable) {
-  if (clique_of(variable) == kNone) return;
-  touch(variable);
-  touch_holders(clique_of(variable), variable);
+  for_each_holder(variable, [this](int holder) { touch_path(holder); });
 }
 
-// The cliques that hold a variable are connected: those below the one that eliminates it.
-void BayesTree::touch_holders(int number, int variable) {
-  for (int child = at(number).first_child; child != kNone; child = at(child).next_sibling) {
-    if (!holds(at(child).separator(), variable)) continue;
-    touch_path(child);
-    touch_holders(child, variable);
+void BayesTree::unsettle(int variable) {
+  for_each_holder(variable, [this](int holder) { unsettle_path(holder); });
+}
+
+std::span<const int> BayesTree::unsettled() {
+  unsettled_.clear();
+  if (num_unsettled_ == 0) return unsettled_;
+  // Whatever is touched or unsettled, so are all above.
+  open_stack_ = roots_;
+  open_stack_.insert(open_stack_.end(), orphans_.begin(), orphans_.end());
+  while (!open_stack_.empty()) {
+    const int number = open_stack_.back();
+    open_stack_.pop_back();
+    if (!at(number).is_unsettled && !at(number).is_touched) continue;
+    if (!at(number).is_touched) unsettled_.push_back(number);
+    for (int child = at(number).first_child; child != kNone; child = at(child).next_sibling) {
+      open_stack_.push_back(child);
+    }
   }
+  std::reverse(unsettled_.begin(), unsettled_.end());
+  return unsettled_;
 }
 
 void BayesTree::detach() {
@@ -97,25 +133,27 @@ void BayesTree::detach() {
   for (const int number : touched_) drop(number);
   std::erase_if(roots_, [&](int root) { return at(root).num_frontals == 0; });
   touched_.clear();
-  num_touched_flops_ = 0;
   std::sort(detached_.begin(), detached_.end());
 }
 
 void BayesTree::drop(int number) {
   Clique& clique = at(number);
   for (const int variable : clique.frontals()) clique_of_[to_index(variable)] = kNone;
-  num_flops_ -= clique.num_flops;
   memory_.give_back(clique.memory,
                     Front::memory_size(clique.front.num_pivots(), clique.front.num_below()));
   clique.variables.clear();
+  clique.factors.clear();
   clique.num_frontals = 0;
   clique.first_child = clique.next_sibling = clique.parent = kNone;
-  clique.is_touched = false;
+  num_unsettled_ -= clique.is_unsettled ? 1 : 0;
+  clique.is_touched = clique.is_unsettled = false;
   free_cliques_.push_back(number);
 }
 
-void BayesTree::attach(const VariableSets& factors, std::span<const int> last) {
-  sets_ = factors;
+void BayesTree::attach(const VariableSets& sets, std::span<const std::size_t> factors,
+                       std::span<const int> last) {
+  CORRIDOR_EXPECT(sets.size() == factors.size());
+  sets_ = sets;
   for (const int orphan : orphans_) sets_.add(at(orphan).separator());
   order_.plan(detached_, sets_, last, dimensions_);
   new_cliques_.clear();
@@ -128,24 +166,16 @@ void BayesTree::attach(const VariableSets& factors, std::span<const int> last) {
       hang(new_cliques_[k], new_cliques_[to_index(parent)]);
     }
   }
+  const auto clique_of_set = [this](std::size_t set) {
+    return new_cliques_[to_index(order_.clique_of_set(set))];
+  };
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    at(clique_of_set(k)).factors.push_back(factors[k]);
+  }
   for (std::size_t k = 0; k < orphans_.size(); ++k) {
-    hang(orphans_[k], new_cliques_[to_index(order_.clique_of_set(factors.size() + k))]);
+    hang(orphans_[k], clique_of_set(factors.size() + k));
   }
   orphans_.clear();
-  // Factor sets of every new clique.
-  first_factor_of_.assign(new_cliques_.size() + 1, 0);
-  for (std::size_t k = 0; k < factors.size(); ++k) {
-    ++first_factor_of_[to_index(order_.clique_of_set(k)) + 1];
-  }
-  std::partial_sum(first_factor_of_.begin(), first_factor_of_.end(), first_factor_of_.begin());
-  factors_of_.resize(factors.size());
-  for (std::size_t k = factors.size(); k-- > 0;) {
-    factors_of_[to_index(--first_factor_of_[to_index(order_.clique_of_set(k)) + 1])] =
-        static_cast<int>(k);
-  }
-  // Each start moved to the one before it.
-  first_factor_of_.erase(first_factor_of_.begin());
-  first_factor_of_.push_back(static_cast<int>(factors.size()));
 }
 
 void BayesTree::hang(int child, int parent) {
@@ -177,19 +207,11 @@ int BayesTree::make_clique(const linear::Supernode& node) {
   clique.is_solved = clique.are_children_due = false;
   clique.memory = memory_.take(Front::memory_size(num_pivots, num_below));
   clique.front = Front(clique.memory, num_pivots, num_below);
-  clique.num_flops = flops_of(num_pivots, num_below);
-  num_flops_ += clique.num_flops;
   return number;
 }
 
-std::span<const int> BayesTree::factors_of(int k) const {
-  const int first = first_factor_of_[to_index(k)];
-  return std::span(factors_of_)
-      .subspan(to_index(first), to_index(first_factor_of_[to_index(k) + 1] - first));
-}
-
-Front& BayesTree::open(int k) {
-  open_ = new_cliques_[to_index(k)];
+Front& BayesTree::open(int number) {
+  open_ = number;
   Clique& clique = at(open_);
   clique.front.set_zero();
   int row = 0;
@@ -222,29 +244,26 @@ void BayesTree::find_runs(const Clique& child, const Front& front) {
 bool BayesTree::close() {
   Clique& clique = at(open_);
   const int num_good = clique.front.eliminate();
-  if (num_good == clique.front.num_pivots()) return true;
+  if (num_good == clique.front.num_pivots()) {
+    num_unsettled_ -= clique.is_unsettled ? 1 : 0;
+    clique.is_unsettled = clique.is_solved = false;
+    return true;
+  }
   int row = 0;
   for (const int variable : clique.frontals()) {
     if (row <= num_good) first_bad_variable_ = variable;
     row += dimension(variable);
   }
-  drop_new_cliques();
-  return false;
-}
-
-void BayesTree::drop_new_cliques() {
-  const auto is_new = [&](int number) { return holds(new_cliques_, number); };
-  for (const int number : new_cliques_) {
-    for (int child = at(number).first_child; child != kNone; child = at(child).next_sibling) {
-      if (is_new(child)) continue;
-      at(child).parent = kNone;
-      orphans_.push_back(child);
-    }
+  if (clique.is_unsettled) {
+    touch_path(open_);
+  } else {
+    // Every new clique; what hangs below them are orphans again.
+    for (const int number : new_cliques_) touch_path(number);
   }
-  for (const int number : new_cliques_) drop(number);
-  std::erase_if(roots_, [&](int root) { return at(root).num_frontals == 0; });
+  detach();
   new_cliques_.clear();
   postpone();
+  return false;
 }
 
 double BayesTree::chi2() const {

@@ -4,9 +4,13 @@
 // changes, always with all cliques above them, and eliminates their variables anew; the subtrees
 // below (orphans) stay as they are and enter by their updates.
 //
-// Variables are numbered from 0. An update runs: touch..., detach(), attach(), then open() and
-// close() for every new clique, then solve_changed(). It does not know factors: the caller sums
-// their information into each open front. Never throws, never prints.
+// Variables are numbered from 0. Two things can happen to a clique: its variables or factors change
+// (touch: it is taken out and planned anew), or only the numbers in its factors do, because they
+// are linearised elsewhere (unsettle: it stays and is eliminated again). An update runs: touch...
+// and unsettle..., open() and close() for every unsettled clique, detach(), attach(), open() and
+// close() for every new clique, then solve_changed(). The tree knows of factors which variables
+// they have and the caller's number; the caller sums their information into each open front. Never
+// throws, never prints.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,15 +28,16 @@ namespace corridor::backend {
 class BayesTree {
  public:
   struct Clique {
-    std::vector<int> variables;  // those eliminated here, then the separator, in order
+    std::vector<int> variables;        // those eliminated here, then the separator, in order
+    std::vector<std::size_t> factors;  // the caller's numbers
     int num_frontals = 0;
     int parent = kNone, first_child = kNone, next_sibling = kNone;
     bool is_touched = false;
+    bool is_unsettled = false;      // its numbers are of no use any more
     bool is_solved = false;         // since it was eliminated
     bool are_children_due = false;  // solved without its children
     double* memory = nullptr;
     Front front;
-    double num_flops = 0;
 
     [[nodiscard]] std::span<const int> frontals() const {
       return std::span(variables).first(static_cast<std::size_t>(num_frontals));
@@ -48,14 +53,18 @@ class BayesTree {
   // A variable that no factor holds any more; it must be detached. Its number is given again.
   void forget(int variable);
 
-  // The clique that eliminates the variable, and all above.
+  // The clique that eliminates the variable, and all above, are taken out at the next detach().
   void touch(int variable);
   // Every clique that holds the variable, and all above.
   void touch_everywhere(int variable);
-  // Floating-point operations that the touched cliques took.
-  [[nodiscard]] double num_touched_flops() const { return num_touched_flops_; }
-  // Of the whole tree.
-  [[nodiscard]] double num_flops() const { return num_flops_; }
+  // Every clique that holds the variable, and all above, wait for open() and close(): the variable
+  // has another linearisation point.
+  void unsettle(int variable);
+  // The unsettled cliques that are not touched, children before parents. Open and close them in
+  // this order before detach().
+  [[nodiscard]] std::span<const int> unsettled();
+  // Deltas are in step with the linearisation points, but what would be solved now is not.
+  [[nodiscard]] bool has_unsettled() const { return num_unsettled_ > 0; }
 
   // Takes the touched cliques out.
   void detach();
@@ -63,19 +72,19 @@ class BayesTree {
   [[nodiscard]] std::span<const int> detached() const { return detached_; }
   // Instead of attach(): the detached variables wait for the next detach().
   void postpone() { waiting_ = detached_; }
-  // Plans cliques for the detached variables. factors: sets of variables that share a factor, all
+  // Plans cliques for the detached variables. sets: the variables of each of the `factors`, all
   // among the detached ones. last: those that are eliminated last.
-  void attach(const VariableSets& factors, std::span<const int> last);
-  // New cliques, children before parents, and the numbers of the factor sets that each takes.
-  [[nodiscard]] int num_new_cliques() const { return static_cast<int>(new_cliques_.size()); }
-  [[nodiscard]] std::span<const int> factors_of(int new_clique) const;
+  void attach(const VariableSets& sets, std::span<const std::size_t> factors,
+              std::span<const int> last);
+  // What attach() planned, children before parents.
+  [[nodiscard]] std::span<const int> new_cliques() const { return new_cliques_; }
   // The front, zero but for what its children sent.
-  Front& open(int new_clique);
+  Front& open(int clique);
   // Scalar row, in the open front, of a variable that it holds.
   [[nodiscard]] int row_of(int variable) const { return rows_[static_cast<std::size_t>(variable)]; }
-  // Eliminates the open front. False: not positive definite at first_bad_variable(). Then all
-  // detached variables wait for the next detach() as if nothing had been attached, with the deltas
-  // that they had.
+  // Eliminates the open front. False: not positive definite at first_bad_variable(). Then the
+  // detached variables, or those of the open clique and all above, wait for the next detach() as
+  // if nothing had been attached, with the deltas that they had.
   bool close();
   [[nodiscard]] int first_bad_variable() const { return first_bad_variable_; }
 
@@ -115,7 +124,10 @@ class BayesTree {
  private:
   Clique& at(int number) { return cliques_[static_cast<std::size_t>(number)]; }
   void touch_path(int clique);
-  void touch_holders(int clique, int variable);
+  void unsettle_path(int clique);
+  // Calls visit with every clique that holds the variable, parents before children.
+  template <class Visit>
+  void for_each_holder(int variable, const Visit& visit);
   int make_clique(const linear::Supernode& node);
   void hang(int child, int parent);
   void find_runs(const Clique& child, const Front& front);
@@ -134,15 +146,14 @@ class BayesTree {
   std::vector<Clique> cliques_;
   std::vector<int> free_cliques_, roots_;
   FrontMemory memory_;
-  double num_flops_ = 0, num_touched_flops_ = 0;
   // Of the update under way.
   std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_, open_stack_;
-  std::vector<int> first_factor_of_, factors_of_;  // sets of every new clique, in compressed rows
+  std::vector<int> unsettled_, holders_;
   VariableSets sets_;
   EliminationOrder order_;
   std::vector<RowRun> runs_;
   std::vector<double> below_, z_;
-  int open_ = kNone, first_bad_variable_ = kNone, pass_ = 0;
+  int open_ = kNone, first_bad_variable_ = kNone, pass_ = 0, num_unsettled_ = 0;
 };
 
 }  // namespace corridor::backend

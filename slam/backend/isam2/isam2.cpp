@@ -24,6 +24,7 @@ using graph::FactorId;
 using graph::Key;
 using graph::NewFactor;
 using graph::Values;
+using State = VariableInformation::State;
 
 class Isam2 final : public BackEnd {
  public:
@@ -91,12 +92,8 @@ class Isam2 final : public BackEnd {
   }
 
   void set_values(const Values& values) override {
-    for (const Key key : values.keys()) {
-      const int variable = index_.of(key);
-      tree_.clear_delta(variable);
-      tree_.touch_everywhere(variable);
-      forget_information_around(variable);
-    }
+    if (!tree_.has_unsettled()) tree_.solve_all();
+    for (const Key key : values.keys()) move_to_another_point(index_.of(key));
     linearization_.merge(values);
     is_estimate_current_ = false;
   }
@@ -124,7 +121,7 @@ class Isam2 final : public BackEnd {
 
   const Values& estimate() const override {
     if (!is_estimate_current_) {
-      tree_.solve_all();
+      if (!tree_.has_unsettled()) tree_.solve_all();
       estimate_ = linearization_;
       for (const Key key : linearization_.keys()) {
         estimate_.retract(key, tree_.delta(index_.of(key)));
@@ -136,7 +133,9 @@ class Isam2 final : public BackEnd {
 
   Pose2 pose(std::uint32_t index) override {
     const int variable = index_.of(graph::pose_key(index));
-    if (tree_.clique_of(variable) != BayesTree::kNone) tree_.solve_path(variable);
+    if (tree_.clique_of(variable) != BayesTree::kNone && !tree_.has_unsettled()) {
+      tree_.solve_path(variable);
+    }
     const double* const delta = tree_.delta(variable);
     return linearization_.pose(index).plus({delta[0], delta[1], delta[2]});
   }
@@ -162,10 +161,7 @@ class Isam2 final : public BackEnd {
 
   void add_variable(Key key) {
     if (index_.contains(key)) {
-      // A new value for a known variable.
-      tree_.touch_everywhere(index_.of(key));
-      tree_.clear_delta(index_.of(key));
-      forget_information_around(index_.of(key));
+      move_to_another_point(index_.of(key));
       return;
     }
     const int variable = tree_.add_variable(key.dimension());
@@ -176,7 +172,7 @@ class Isam2 final : public BackEnd {
       is_marked_.resize(to_index(variable) + 1, false);
       birth_of_.resize(to_index(variable) + 1);
     }
-    information_[to_index(variable)].is_known = false;
+    forget_information_of(variable);
     birth_of_[to_index(variable)] = num_births_++;
   }
 
@@ -191,7 +187,7 @@ class Isam2 final : public BackEnd {
     for (const int variable : variables_) {
       factors_of_[to_index(variable)].push_back(id);
       tree_.touch(variable);
-      information_[to_index(variable)].is_known = false;
+      forget_information_of(variable);
     }
     return id;
   }
@@ -211,7 +207,7 @@ class Isam2 final : public BackEnd {
     for (const int variable : variables_of_[id]) {
       std::erase(factors_of_[to_index(variable)], id);
       tree_.touch(variable);
-      information_[to_index(variable)].is_known = false;
+      forget_information_of(variable);
     }
     variables_of_.erase(id);
     is_estimate_current_ = false;
@@ -228,18 +224,34 @@ class Isam2 final : public BackEnd {
     for (const int variable : marked_) {
       is_marked_[to_index(variable)] = false;
       linearization_.retract(index_.keys()[to_index(variable)], tree_.delta(variable));
-      tree_.clear_delta(variable);
-      tree_.touch_everywhere(variable);
-      forget_information_around(variable);
+      move_to_another_point(variable);
+      // All its factors are linearised now.
+      information_[to_index(variable)] = {Eigen::Matrix3d::Zero(), State::kBeingSummed};
     }
     report.num_relinearized += static_cast<std::int64_t>(marked_.size());
+    being_summed_.swap(marked_);
     marked_.clear();
   }
 
-  void forget_information_around(int variable) {
+  void move_to_another_point(int variable) {
+    tree_.clear_delta(variable);
+    tree_.unsettle(variable);
+    forget_information_of(variable);
+    // Its neighbours' information changes little, unless a kernel weighs a factor differently.
     for (const FactorId id : factors_of_[to_index(variable)]) {
-      for (const int other : variables_of_[id]) information_[to_index(other)].is_known = false;
+      if (graph_.kernel(id).kind == graph::KernelKind::kNone) continue;
+      for (const int other : variables_of_[id]) forget_information_of(other);
     }
+  }
+
+  void forget_information_of(int variable) {
+    State& state = information_[to_index(variable)].state;
+    if (state == State::kKnown) state = State::kUnknown;
+  }
+
+  void end_sums(State state) {
+    for (const int variable : being_summed_) information_[to_index(variable)].state = state;
+    being_summed_.clear();
   }
 
   // The factors whose variables are all eliminated anew: those that the cliques taken out held.
@@ -274,17 +286,26 @@ class Isam2 final : public BackEnd {
 
   // False: rank deficient; the report says where.
   bool eliminate(BackEndReport& report) {
-    tree_.detach();
-    const std::span<const int> detached = tree_.detached();
-    if (detached.empty()) return true;
-    report.num_eliminated += static_cast<std::int64_t>(detached.size());
-    collect_factors();
-    tree_.attach(sets_, newest());
-    for (int k = 0; k < tree_.num_new_cliques(); ++k) {
-      Front& front = tree_.open(k);
-      for (const int set : tree_.factors_of(k)) {
-        add_linearized(graph_, collected_[to_index(set)], linearization_, sets_[to_index(set)],
-                       tree_, front);
+    bool is_good = eliminate_each(tree_.unsettled(), report);
+    if (is_good) {
+      tree_.detach();
+      if (!tree_.detached().empty()) {
+        collect_factors();
+        tree_.attach(sets_, collected_, newest());
+        is_good = eliminate_each(tree_.new_cliques(), report);
+      }
+    }
+    end_sums(is_good ? State::kKnown : State::kUnknown);
+    return is_good;
+  }
+
+  bool eliminate_each(std::span<const int> cliques, BackEndReport& report) {
+    for (const int number : cliques) {
+      Front& front = tree_.open(number);
+      const BayesTree::Clique& clique = tree_.clique(number);
+      report.num_eliminated += clique.num_frontals;
+      for (const FactorId id : clique.factors) {
+        add_linearized(graph_, id, linearization_, variables_of_[id], tree_, front, information_);
       }
       if (tree_.close()) continue;
       report.status = SolveStatus::kRankDeficient;
@@ -308,14 +329,14 @@ class Isam2 final : public BackEnd {
 
   // delta^T H_vv delta.
   double squared_step(int variable) {
-    Information& known = information_[to_index(variable)];
+    VariableInformation& known = information_[to_index(variable)];
     const int dimension = tree_.dimension(variable);
-    if (!known.is_known) {
+    if (known.state == State::kUnknown) {
       known.H.setZero();
       for (const FactorId id : factors_of_[to_index(variable)]) {
         add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], known.H);
       }
-      known.is_known = true;
+      known.state = State::kKnown;
     }
     const Eigen::Map<const Eigen::VectorXd> delta(tree_.delta(variable), dimension);
     return delta.dot(known.H.topLeftCorner(dimension, dimension) * delta);
@@ -328,11 +349,6 @@ class Isam2 final : public BackEnd {
     return std::move(report);
   }
 
-  struct Information {
-    Eigen::Matrix3d H;  // top left block of the variable's dimension
-    bool is_known = false;
-  };
-
   Isam2Params params_;
   std::array<double, graph::kNumVariableKinds> squared_threshold_;
   graph::FactorGraph graph_;
@@ -343,11 +359,11 @@ class Isam2 final : public BackEnd {
   mutable bool is_estimate_current_ = true;
   // By variable.
   std::vector<std::vector<FactorId>> factors_of_;
-  std::vector<Information> information_;
+  std::vector<VariableInformation> information_;
   std::vector<bool> is_marked_;
   std::vector<std::int64_t> birth_of_;  // when it came, counted in variables
   std::int64_t num_births_ = 0;
-  std::vector<int> marked_;
+  std::vector<int> marked_, being_summed_;
   double largest_step_ = 0;
   // By factor.
   graph::SlotRange<std::vector<int>> variables_of_;

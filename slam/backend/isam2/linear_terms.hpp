@@ -10,15 +10,24 @@
 
 namespace corridor::backend {
 
-// Linearises a factor and adds J^T J, J^T r and r^T r to the open front of the tree. variables:
-// numbers of the factor's variables in the tree.
+// H_vv = sum of J_v^T J_v of a variable's factors, in the top left block of its dimension.
+struct VariableInformation {
+  enum class State { kUnknown, kKnown, kBeingSummed };
+
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  State state = State::kUnknown;
+};
+
+// Linearises a factor and adds J^T J, J^T r and r^T r to the open front of the tree, and J_v^T J_v
+// to the information of those of its variables for which it is being summed. variables: numbers of
+// the factor's variables in the tree. information: by number.
 void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
                     const graph::Values& values, std::span<const int> variables,
-                    const BayesTree& tree, Front& front);
+                    const BayesTree& tree, Front& front,
+                    std::span<VariableInformation> information);
 
-// Adds J_v^T J_v of the factor to the top left block of the variable's dimension.
+// Linearises a factor and adds its J_v^T J_v of one variable.
 void add_information(const graph::FactorGraph& graph, graph::FactorId id,
-                     const graph::Values& values, graph::Key variable,
-                     Eigen::Matrix3d& information);
+                     const graph::Values& values, graph::Key variable, Eigen::Matrix3d& H);
 
 }  // namespace corridor::backend
