@@ -182,6 +182,7 @@ class Isam2 final : public BackEnd {
       CORRIDOR_EXPECT(index_.contains(key));
       variables_.push_back(index_.of(key));
     }
+    has_kernels_ = has_kernels_ || factor.kernel.kind != graph::KernelKind::kNone;
     const FactorId id = graph_.add(std::move(factor));
     variables_of_.set(id, variables_);
     for (const int variable : variables_) {
@@ -238,6 +239,7 @@ class Isam2 final : public BackEnd {
     tree_.unsettle(variable);
     forget_information_of(variable);
     // Its neighbours' information changes little, unless a kernel weighs a factor differently.
+    if (!has_kernels_) return;
     for (const FactorId id : factors_of_[to_index(variable)]) {
       if (graph_.kernel(id).kind == graph::KernelKind::kNone) continue;
       for (const int other : variables_of_[id]) forget_information_of(other);
@@ -357,6 +359,7 @@ class Isam2 final : public BackEnd {
   mutable BayesTree tree_;  // reading solves what no one has asked for yet
   mutable Values estimate_;
   mutable bool is_estimate_current_ = true;
+  bool has_kernels_ = false;  // any factor so far
   // By variable.
   std::vector<std::vector<FactorId>> factors_of_;
   std::vector<VariableInformation> information_;
