@@ -13,6 +13,7 @@
 #include "slam/backend/ceres/ceres_back_end.hpp"
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
 #include "slam/backend/isam2/isam2.hpp"
+#include "slam/core/rng.hpp"
 #include "tests/slam/backend/random_problems.hpp"
 #include "tests/support/recorded_data.hpp"
 
@@ -86,6 +87,23 @@ void expect_one_optimum(const RandomProblem& problem) {
   }
 }
 
+// The same problem from somewhere near an optimum of it: under a kernel that is not convex there
+// may be several.
+RandomProblem from_near_an_optimum(RandomProblem problem, std::uint64_t seed) {
+  constexpr double kNear = 1e-3;
+  const auto finder = least_squares("", true, 1e-12).make();
+  (void)finder->add(problem.factors, problem.initial);
+  RC_ASSERT(finder->solve().status == SolveStatus::kConverged);
+  problem.initial = finder->estimate();
+  Rng rng(seed);
+  for (const graph::Key key : problem.initial.keys()) {
+    std::vector<double> step(static_cast<std::size_t>(key.dimension()));
+    for (double& component : step) component = rng.normal(0, kNear);
+    problem.initial.retract(key, step.data());
+  }
+  return problem;
+}
+
 RC_GTEST_PROP(BackEnds, AgreeOnRandomPoseGraphs, (std::uint64_t seed)) {
   expect_one_optimum(testing::random_walk(seed));
 }
@@ -100,12 +118,17 @@ RC_GTEST_PROP(BackEnds, AgreeUnderHubersKernel, (std::uint64_t seed)) {
 }
 
 RC_GTEST_PROP(BackEnds, AgreeUnderCauchysKernel, (std::uint64_t seed)) {
-  expect_one_optimum(testing::random_walk(seed, {KernelKind::kCauchy, 3}));
-  expect_one_optimum(testing::random_drive(seed, {KernelKind::kCauchy, 3}));
+  expect_one_optimum(
+      from_near_an_optimum(testing::random_walk(seed, {KernelKind::kCauchy, 3}), seed));
+  expect_one_optimum(
+      from_near_an_optimum(testing::random_drive(seed, {KernelKind::kCauchy, 3}), seed));
 }
 
 RC_GTEST_PROP(BackEnds, AgreeUnderTheKernelOfGemanAndMcClure, (std::uint64_t seed)) {
-  expect_one_optimum(testing::random_drive(seed, {KernelKind::kGemanMcClure, 5}));
+  expect_one_optimum(
+      from_near_an_optimum(testing::random_walk(seed, {KernelKind::kGemanMcClure, 5}), seed));
+  expect_one_optimum(
+      from_near_an_optimum(testing::random_drive(seed, {KernelKind::kGemanMcClure, 5}), seed));
 }
 
 // A graph of the catalogue with the best chi2 known, from four independent solvers.
