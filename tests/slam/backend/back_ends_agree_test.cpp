@@ -104,6 +104,30 @@ RandomProblem from_near_an_optimum(RandomProblem problem, std::uint64_t seed) {
   return problem;
 }
 
+RC_GTEST_PROP(BackEnds, GiveBackTheValuesThatWereSetAndSolveFromThem, (std::uint64_t seed)) {
+  const RandomProblem problem = testing::random_walk(seed);
+  for (const Rival& rival : rivals(1e-12)) {
+    auto solver = rival.make();
+    (void)solver->update(problem.factors, problem.initial, {});
+    const graph::Values before = solver->estimate();
+    graph::Values set;
+    for (const std::uint32_t index : {0U, 7U, 13U}) {
+      set.set_pose(index, before.pose(index).plus({0.02, -0.01, 0.03}));
+    }
+    solver->set_values(set);
+    for (const graph::Key key : before.keys()) {
+      const Pose2& expected = set.contains(key) ? set.pose(key.index) : before.pose(key.index);
+      RC_ASSERT(solver->estimate().pose(key.index).minus(expected).norm() < 1e-12);
+      RC_ASSERT(solver->pose(key.index).minus(expected).norm() < 1e-12);
+    }
+    RC_ASSERT(solver->solve().status == SolveStatus::kConverged);
+    const double chi2 = solver->graph().cost(solver->estimate());
+    solver->set_values(problem.initial);
+    (void)solver->solve();
+    RC_ASSERT(std::abs(solver->graph().cost(solver->estimate()) - chi2) <= kSameChi2 * (1 + chi2));
+  }
+}
+
 RC_GTEST_PROP(BackEnds, AgreeOnRandomPoseGraphs, (std::uint64_t seed)) {
   expect_one_optimum(testing::random_walk(seed));
 }
