@@ -24,6 +24,7 @@
 #include "bench/cli/run_case_command.hpp"
 #include "bench/cli/run_command.hpp"
 #include "bench/cli/simulate_command.hpp"
+#include "bench/cli/solve_command.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/runner/git_revision.hpp"
 #include "reports/report.hpp"
@@ -41,6 +42,7 @@ struct Commands {
   corridor::cli::SimulateCommand simulate;
   corridor::cli::ConvertCommand convert;
   corridor::cli::EvaluateCommand evaluate;
+  corridor::cli::SolveCommand solve;
   corridor::cli::ReportCommand report;
   corridor::cli::DataListCommand data_list;
   corridor::cli::DataVerifyCommand data_verify;
@@ -70,6 +72,8 @@ std::vector<std::pair<const CLI::App*, Action>> declare(CLI::App& app, Commands&
       [&c] { return c.convert.run(); });
   add(app, "evaluate", "Score a trajectory and a map from files", c.evaluate,
       [&c] { return c.evaluate.run(); });
+  add(app, "solve", "Solve a pose graph with a back-end and measure it", c.solve,
+      [&c] { return c.solve.run(); });
   add(app, "report", "Write tables, figures and page from finished runs", c.report,
       [&c] { return c.report.run(corridor::reports::write_report); });
   CLI::App* data = app.add_subcommand("data", "Data sets on this machine");

@@ -20,9 +20,9 @@ PoseGraph::PoseGraph(std::unique_ptr<backend::BackEnd> back_end, const Pose2& T_
 
 void PoseGraph::add_pose(const Pose2& T_map_base) {
   const Pose2 T_start_base = T_map_start_.between(T_map_base);
-  std::vector<graph::FactorPtr> factors;
+  std::vector<graph::NewFactor> factors;
   if (num_poses_ == 0) {
-    factors.push_back(std::make_unique<graph::PosePrior>(
+    factors.push_back(graph::PosePrior(
         graph::pose_key(0), T_start_base, kGaugeSqrtInformation * Eigen::Matrix3d::Identity()));
   }
   graph::Values values;
@@ -34,8 +34,8 @@ void PoseGraph::add_edge(std::uint32_t from, const Pose2& T_map_base_from, std::
                          const PoseWithCovariance& matched, const Pose2& T_base_sensor) {
   const Pose2 T_map_base_to = matched.T_map_sensor * T_base_sensor.inverse();
   const Eigen::Matrix3d information = information_of(covariance_in_base(matched, T_base_sensor));
-  std::vector<graph::FactorPtr> factors;
-  factors.push_back(std::make_unique<graph::RelativePose>(
+  std::vector<graph::NewFactor> factors;
+  factors.push_back(graph::RelativePose(
       graph::pose_key(from), graph::pose_key(to), T_map_base_from.between(T_map_base_to),
       graph::square_root_information(information), graph::RelativePoseError::kComponents));
   back_end_->add(std::move(factors), graph::Values{});

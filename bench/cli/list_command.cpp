@@ -85,7 +85,9 @@ Result<Listing> list_profiles(const CommonOptions&) {
 Result<Listing> list_backends(const CommonOptions&) {
   Listing listing{Json::array(), {"name", "description"}, ""};
   for (const runner::BackEndInfo& info : runner::back_ends()) {
-    listing.items.push_back({{"name", info.name}, {"description", info.description}});
+    listing.items.push_back({{"name", info.name},
+                             {"description", info.description},
+                             {"parameters", parameters_of(info.parameters)}});
   }
   return listing;
 }

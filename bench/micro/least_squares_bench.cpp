@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "slam/backend/ceres/ceres_back_end.hpp"
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
@@ -16,7 +17,7 @@ constexpr double kPositionSigma_m = 0.02;
 constexpr double kAngleSigma_rad = 0.01;
 
 struct Problem {
-  std::vector<graph::FactorPtr> factors;
+  std::vector<graph::NewFactor> factors;
   graph::Values values;
 };
 
@@ -34,31 +35,31 @@ Problem make_problem(std::uint32_t num_poses) {
   std::vector<Pose2> true_poses{Pose2()};
   Pose2 T_map_base;
   problem.values.set_pose(0, T_map_base);
-  problem.factors.push_back(
-      std::make_unique<graph::PosePrior>(graph::pose_key(0), T_map_base, sqrt_information));
+  problem.factors.push_back(graph::PosePrior(graph::pose_key(0), T_map_base, sqrt_information));
   for (std::uint32_t index = 1; index < num_poses; ++index) {
     const Pose2 T_i_j(1, 0, index % 5 == 0 ? 1.57 : 0.0);
     true_poses.push_back(true_poses.back() * T_i_j);
     const Pose2 measured = with_noise(T_i_j, rng);
     T_map_base = T_map_base * measured;
     problem.values.set_pose(index, T_map_base);
-    problem.factors.push_back(std::make_unique<graph::RelativePose>(
+    problem.factors.push_back(graph::RelativePose(
         graph::pose_key(index - 1), graph::pose_key(index), measured, sqrt_information));
     if (index % 20 != 0) continue;
     const Pose2 T_old_new = true_poses[index - 20].between(true_poses[index]);
-    problem.factors.push_back(
-        std::make_unique<graph::RelativePose>(graph::pose_key(index - 20), graph::pose_key(index),
-                                              with_noise(T_old_new, rng), sqrt_information));
+    problem.factors.push_back(graph::RelativePose(graph::pose_key(index - 20),
+                                                  graph::pose_key(index),
+                                                  with_noise(T_old_new, rng), sqrt_information));
   }
   return problem;
 }
 
-void solve(benchmark::State& state, const backend::LeastSquaresParams& params) {
+template <class MakeBackEnd>
+void solve(benchmark::State& state, const MakeBackEnd& make) {
   int num_iterations = 0;
   for (auto _ : state) {
     state.PauseTiming();
     Problem problem = make_problem(static_cast<std::uint32_t>(state.range(0)));
-    const auto solver = backend::make_least_squares(params);
+    const auto solver = make();
     solver->add(std::move(problem.factors), problem.values);
     state.ResumeTiming();
     const backend::BackEndReport report = solver->solve();
@@ -68,8 +69,23 @@ void solve(benchmark::State& state, const backend::LeastSquaresParams& params) {
   state.counters["solver_iterations"] = num_iterations;
 }
 
-void gauss_newton(benchmark::State& state) { solve(state, {}); }
-void levenberg_marquardt(benchmark::State& state) { solve(state, {.use_damping = true}); }
+void gauss_newton(benchmark::State& state) {
+  solve(state, [] { return backend::make_least_squares({}); });
+}
+void levenberg_marquardt(benchmark::State& state) {
+  solve(state, [] { return backend::make_least_squares({.use_damping = true}); });
+}
+void ceres(benchmark::State& state) {
+  solve(state, [] { return backend::make_ceres({}); });
+}
+void ceres_tuned(benchmark::State& state) {
+  solve(state, [] { return backend::make_ceres(backend::tuned_ceres_params()); });
+}
+void ceres_tuned_on_cholmod(benchmark::State& state) {
+  backend::CeresParams params = backend::tuned_ceres_params();
+  params.sparse_library = "SUITE_SPARSE";
+  solve(state, [&] { return backend::make_ceres(params); });
+}
 BENCHMARK(gauss_newton)
     ->Name("backend/gauss_newton")
     ->Arg(100)
@@ -77,6 +93,17 @@ BENCHMARK(gauss_newton)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(levenberg_marquardt)
     ->Name("backend/levenberg")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(ceres)->Name("backend/ceres")->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(ceres_tuned)
+    ->Name("backend/ceres_tuned")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(ceres_tuned_on_cholmod)
+    ->Name("backend/ceres_tuned_on_cholmod")
     ->Arg(100)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond);

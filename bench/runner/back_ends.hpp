@@ -8,13 +8,15 @@
 
 #include "slam/backend/back_end.hpp"
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
+#include "slam/core/params.hpp"
 #include "slam/core/result.hpp"
 
 namespace corridor::runner {
 
 struct BackEndInfo {
-  std::string name;
+  std::string name;  // NAME, or NAME@PROFILE where one back-end has several settings
   std::string description;
+  std::vector<ParamRow> parameters;  // as the back-end has them where no system says otherwise
 };
 
 std::vector<BackEndInfo> back_ends();
@@ -22,8 +24,9 @@ std::vector<BackEndInfo> back_ends();
 // The Error names the known ones.
 Result<void> check_back_end(std::string_view name);
 
-// `settings` are the caller's limits and thresholds; the name decides the method.
-Result<std::unique_ptr<backend::BackEnd>> make_back_end(std::string_view name,
-                                                        backend::LeastSquaresParams settings);
+// `settings` are the limits and thresholds of the system that asks, for the least-squares solvers
+// of our own; the name decides the method. The others run with their own parameters.
+Result<std::unique_ptr<backend::BackEnd>> make_back_end(
+    std::string_view name, const backend::LeastSquaresParams& settings);
 
 }  // namespace corridor::runner

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,11 +27,15 @@ std::string to_text(SolveStatus status);
 struct BackEndReport {
   SolveStatus status = SolveStatus::kEmpty;
   int num_iterations = 0;
-  double chi2_initial = 0;  // after adding, before solving
+  // Cost after adding, before solving, and at the end. Incremental updates do not evaluate it: then
+  // chi2 is what the linearised factors predict, chi2_initial not a number.
+  double chi2_initial = 0;
   double chi2 = 0;
   std::int64_t num_factors = 0;
   std::int64_t num_variables = 0;
-  std::int64_t num_relinearized = 0;  // variables moved by this update, summed over iterations
+  std::int64_t num_relinearized = 0;       // variables moved by this update, summed over iterations
+  std::int64_t num_eliminated = 0;         // variables eliminated anew, summed over iterations
+  std::optional<graph::Key> undetermined;  // with kRankDeficient: a variable that nothing holds
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
 };
 
@@ -44,18 +49,25 @@ class BackEnd {
   [[nodiscard]] virtual std::string_view name() const = 0;
   // Adds, removes, then improves the estimate. Every key of a new factor must be in `new_values` or
   // known already. A pose graph needs at least one prior.
-  virtual BackEndReport update(std::vector<graph::FactorPtr> new_factors,
+  virtual BackEndReport update(std::vector<graph::NewFactor> new_factors,
                                const graph::Values& new_values,
                                std::span<const graph::FactorId> removed_factors) = 0;
   // Adds without solving: for systems that optimise seldom.
-  virtual std::vector<graph::FactorId> add(std::vector<graph::FactorPtr> new_factors,
+  virtual std::vector<graph::FactorId> add(std::vector<graph::NewFactor> new_factors,
                                            const graph::Values& new_values) = 0;
   // Solves again from the present estimate, until converged or the iteration limit.
   virtual BackEndReport solve() = 0;
+  // Takes known variables out for good and keeps, as a prior on their neighbours, what their
+  // factors said, linearised at the present estimate. Later factors may not name them. An error
+  // where a back-end does not offer it, or where a variable is not determined.
+  virtual Result<void> marginalize(std::span<const graph::Key> keys);
   // Overwrites the estimate of known variables, e.g. with a front end's own.
   virtual void set_values(const graph::Values& values) = 0;
 
   [[nodiscard]] virtual const graph::Values& estimate() const = 0;
+  // One pose of the estimate, for those who read the newest after every update: where a back-end
+  // solves lazily, this costs no pass over all variables. Requires that the pose is known.
+  [[nodiscard]] virtual Pose2 pose(std::uint32_t index) { return estimate().pose(index); }
   [[nodiscard]] virtual const graph::FactorGraph& graph() const = 0;
   // Covariance of one variable in its tangent order.
   virtual Result<Eigen::MatrixXd> marginal_covariance(graph::Key key) = 0;

@@ -43,6 +43,7 @@ Sincs second_order_sincs(double theta_rad) {
 
 double wrap_angle(double angle_rad) {
   constexpr double kTurn_rad = 2 * std::numbers::pi;
+  if (std::abs(angle_rad) < std::numbers::pi) return angle_rad;  // as it is nearly always
   double wrapped = std::remainder(angle_rad, kTurn_rad);
   if (wrapped <= -std::numbers::pi) wrapped += kTurn_rad;
   return wrapped;

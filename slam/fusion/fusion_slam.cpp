@@ -140,7 +140,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     graph::Values values;
     values.set_pose(0, Pose2());
     values.set_wheel_scale(0, 0);
-    std::vector<graph::FactorPtr> factors;
+    std::vector<graph::NewFactor> factors;
     add_first_factors(params_, factors);
     begin_imu_states(0, Eigen::Vector2d::Zero(), values, factors);
     keep(back_end_->update(std::move(factors), values, {}));
@@ -152,7 +152,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   // From the first key scan on that had a reading before it, the IMU has states.
   void begin_imu_states(std::uint32_t key, const Eigen::Vector2d& velocity_map_mps,
-                        graph::Values& values, std::vector<graph::FactorPtr>& factors) {
+                        graph::Values& values, std::vector<graph::NewFactor>& factors) {
     if (has_imu_ || !predictor_.has_reading()) return;
     has_imu_ = true;
     values.set_velocity(key, velocity_map_mps);
@@ -227,7 +227,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       const auto stage = stage_clock().enter(Stage::kGraph);
       const Interval interval = interval_to(scan, tracked);
       is_velocity_known_ = is_velocity_known_ || interval.imu.has_value();
-      std::vector<graph::FactorPtr> factors;
+      std::vector<graph::NewFactor> factors;
       verdict_ = add_interval_factors(interval, robot_, wheel_noise_.factor(), params_, factors);
       count_verdict();
       scan_path_.add_arrival(interval.tracked_T_i_j);

@@ -9,7 +9,7 @@
 namespace corridor::fusion {
 namespace {
 
-using graph::FactorPtr;
+using graph::NewFactor;
 
 // How much worse than nominal a sensor is taken that was excluded and came back as the least bad
 // one.
@@ -47,42 +47,41 @@ LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
   return choice;
 }
 
-FactorPtr lidar_factor(const Interval& interval, const Eigen::Matrix3d& sqrt_information) {
-  return std::make_unique<graph::RelativePose>(graph::pose_key(interval.anchor),
-                                               graph::pose_key(interval.j),
-                                               interval.match->T_map_base, sqrt_information);
+graph::RelativePose lidar_factor(const Interval& interval,
+                                 const Eigen::Matrix3d& sqrt_information) {
+  return graph::RelativePose(graph::pose_key(interval.anchor), graph::pose_key(interval.j),
+                             interval.match->T_map_base, sqrt_information);
 }
 
-FactorPtr scalar_lidar_factor(const Interval& interval, double sigma_factor,
-                              const FusionParams& params) {
+graph::RelativePose scalar_lidar_factor(const Interval& interval, double sigma_factor,
+                                        const FusionParams& params) {
   const double translation = 1 / (params.lidar_sigma_m * sigma_factor);
   const double rotation = 1 / (params.lidar_sigma_rad * sigma_factor);
   return lidar_factor(interval, Eigen::Vector3d(translation, translation, rotation).asDiagonal());
 }
 
-FactorPtr tracked_factor(const Interval& interval) {
+graph::RelativePose tracked_factor(const Interval& interval) {
   const Eigen::Vector3d weight(1 / kTrackedSigma_m, 1 / kTrackedSigma_m, 1 / kTrackedSigma_rad);
-  return std::make_unique<graph::RelativePose>(graph::pose_key(interval.i),
-                                               graph::pose_key(interval.j), interval.tracked_T_i_j,
-                                               weight.asDiagonal().toDenseMatrix());
+  return graph::RelativePose(graph::pose_key(interval.i), graph::pose_key(interval.j),
+                             interval.tracked_T_i_j, weight.asDiagonal().toDenseMatrix());
 }
 
-FactorPtr wheel_factor(const Interval& interval, const WheelNoise& noise, double sigma_factor) {
+graph::WheelMotion wheel_factor(const Interval& interval, const WheelNoise& noise,
+                                double sigma_factor) {
   Eigen::Vector3d weight(1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.rotation_sigma_rad * sigma_factor));
   if (interval.imu && interval.imu->unmeasured_s == 0)
     weight(2) = 0;  // the gyro knows the turn better than unequal wheels
-  return std::make_unique<graph::WheelMotion>(
-      graph::pose_key(interval.i), graph::pose_key(interval.j), graph::wheel_scale_key(0),
-      *interval.wheel_T_i_j, weight.asDiagonal());
+  return graph::WheelMotion(graph::pose_key(interval.i), graph::pose_key(interval.j),
+                            graph::wheel_scale_key(0), *interval.wheel_T_i_j, weight.asDiagonal());
 }
 
 void add_imu_factors(const Interval& interval, const ImuModel& imu,
-                     std::vector<FactorPtr>& factors) {
-  factors.push_back(std::make_unique<graph::ImuMotion>(interval.i, interval.j, *interval.imu));
-  factors.push_back(std::make_unique<graph::BiasWalk>(
-      interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
+                     std::vector<NewFactor>& factors) {
+  factors.push_back(graph::ImuMotion(interval.i, interval.j, *interval.imu));
+  factors.push_back(
+      graph::BiasWalk(interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
 }
 
 SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotModel& robot,
@@ -98,7 +97,7 @@ SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotM
 // The published method: each sensor in or out as a whole.
 IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& noise,
                                    const SlipTest& slip, const RobotModel& robot,
-                                   const FusionParams& params, std::vector<FactorPtr>& factors) {
+                                   const FusionParams& params, std::vector<NewFactor>& factors) {
   const LidarChoice lidar = scalar_lidar_test(interval, robot, params);
   IntervalVerdict verdict;
   verdict.is_slip = slip.is_slip;
@@ -127,7 +126,7 @@ IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& n
 // Ours: the LiDAR enters along the directions it sees, the wheels unless a test says no.
 IntervalVerdict add_directional_factors(const Interval& interval, const WheelNoise& noise,
                                         const SlipTest& slip, double wheel_noise_factor,
-                                        std::vector<FactorPtr>& factors) {
+                                        std::vector<NewFactor>& factors) {
   IntervalVerdict verdict;
   verdict.is_slip = slip.is_slip || interval.is_wheel_jump;
   const int num_observable = interval.match ? interval.match->num_observable : 0;
@@ -160,7 +159,7 @@ Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s) {
 
 IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel& robot,
                                      double wheel_noise_factor, const FusionParams& params,
-                                     std::vector<FactorPtr>& factors) {
+                                     std::vector<NewFactor>& factors) {
   if (interval.imu) add_imu_factors(interval, robot.imu, factors);
   const WheelNoise noise = interval.wheel_T_i_j
                                ? nominal_wheel_noise(*interval.wheel_T_i_j, robot.wheels, params)
@@ -178,24 +177,21 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
   return verdict;
 }
 
-void add_first_factors(const FusionParams& params, std::vector<FactorPtr>& factors) {
-  factors.push_back(std::make_unique<graph::PosePrior>(graph::pose_key(0), Pose2(),
-                                                       Eigen::Matrix3d::Identity() / kGaugeSigma));
-  const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : kFixedScaleSigma;
+void add_first_factors(const FusionParams& params, std::vector<NewFactor>& factors) {
   factors.push_back(
-      std::make_unique<graph::VectorPrior>(graph::wheel_scale_key(0), Eigen::VectorXd::Zero(1),
-                                           Eigen::VectorXd::Constant(1, scale_sigma)));
+      graph::PosePrior(graph::pose_key(0), Pose2(), Eigen::Matrix3d::Identity() / kGaugeSigma));
+  const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : kFixedScaleSigma;
+  using Scale = graph::WheelScalePrior::Vector;
+  factors.push_back(graph::WheelScalePrior(0, Scale(0.0), Scale(scale_sigma)));
 }
 
 void add_imu_priors(std::uint32_t key, const FusionParams& params,
-                    std::vector<FactorPtr>& factors) {
-  factors.push_back(std::make_unique<graph::VectorPrior>(
-      graph::velocity_key(key), Eigen::VectorXd::Zero(2),
-      Eigen::VectorXd::Constant(2, params.initial_velocity_sigma_mps)));
-  factors.push_back(std::make_unique<graph::VectorPrior>(
-      graph::bias_key(key), Eigen::VectorXd::Zero(3),
-      Eigen::Vector3d(params.gyro_bias_sigma_radps, params.accel_bias_sigma_mps2,
-                      params.accel_bias_sigma_mps2)));
+                    std::vector<NewFactor>& factors) {
+  factors.push_back(graph::VelocityPrior(
+      key, Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(params.initial_velocity_sigma_mps)));
+  factors.push_back(graph::BiasPrior(
+      key, Eigen::Vector3d::Zero(),
+      {params.gyro_bias_sigma_radps, params.accel_bias_sigma_mps2, params.accel_bias_sigma_mps2}));
 }
 
 }  // namespace corridor::fusion

@@ -9,7 +9,7 @@
 #include "slam/fusion/fusion_params.hpp"
 #include "slam/fusion/key_scan.hpp"
 #include "slam/fusion/sensor_health.hpp"
-#include "slam/graph/factor.hpp"
+#include "slam/graph/any_factor.hpp"
 #include "slam/matching/observability.hpp"
 #include "slam/motion/imu_preintegration.hpp"
 
@@ -42,14 +42,14 @@ struct IntervalVerdict {
 // Appends the interval's factors.
 IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel& robot,
                                      double wheel_noise_factor, const FusionParams& params,
-                                     std::vector<graph::FactorPtr>& factors);
+                                     std::vector<graph::NewFactor>& factors);
 
 // The factors that fix the gauge, key scan 0 at T_map_base = identity, and start the wheels' scale.
-void add_first_factors(const FusionParams& params, std::vector<graph::FactorPtr>& factors);
+void add_first_factors(const FusionParams& params, std::vector<graph::NewFactor>& factors);
 
 // Priors on the velocity and the biases of the key scan at which the IMU's states begin.
 void add_imu_priors(std::uint32_t key, const FusionParams& params,
-                    std::vector<graph::FactorPtr>& factors);
+                    std::vector<graph::NewFactor>& factors);
 
 // Covariance of the change of the bias over a time, as a standard deviation per component.
 Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s);

@@ -1,7 +1,6 @@
 #include "slam/fusion/loop_edges.hpp"
 
 #include <algorithm>
-#include <memory>
 
 #include "slam/graph/factors/pose_factors.hpp"
 
@@ -9,14 +8,14 @@ namespace corridor::fusion {
 
 LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double path_m,
                                   backend::BackEnd& back_end) {
-  std::vector<graph::FactorPtr> factors;
+  std::vector<graph::NewFactor> factors;
   std::vector<std::uint32_t> scan_keys;
   for (const LoopClosure& closure : closures) {
     const bool is_closed = std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
       return edge.scan_key == closure.scan_key;
     });
     if (is_closed) continue;
-    factors.push_back(std::make_unique<graph::RelativePose>(
+    factors.push_back(graph::RelativePose(
         graph::pose_key(closure.submap_key), graph::pose_key(closure.scan_key),
         closure.match.T_map_base, graph::square_root_information(closure.match.information)));
     scan_keys.push_back(closure.scan_key);
@@ -34,7 +33,7 @@ LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double 
 
 void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& solves) {
   const auto chi2 = [&](const Edge& edge) {
-    return back_end.graph().factor(edge.id).chi2(back_end.estimate());
+    return back_end.graph().chi2(edge.id, back_end.estimate());
   };
   while (!edges_.empty()) {
     const auto worst =

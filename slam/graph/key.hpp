@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,6 +15,8 @@ enum class VariableKind : std::uint32_t {
   kBias,        // R^3, order (gyro z [rad/s], accelerometer x, y [m/s^2])
   kWheelScale,  // R^1, true path = (1 + value) * path by nominal wheel radii
 };
+
+inline constexpr std::size_t kNumVariableKinds = 4;
 
 constexpr int dimension_of(VariableKind kind) {
   if (kind == VariableKind::kWheelScale) return 1;

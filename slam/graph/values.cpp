@@ -1,24 +1,52 @@
 #include "slam/graph/values.hpp"
 
-#include <cmath>
-
-#include "slam/core/expect.hpp"
+#include <algorithm>
+#include <string>
+#include <type_traits>
 
 namespace corridor::graph {
 namespace {
 
-template <class T>
-const T& get(const std::vector<std::optional<T>>& slots, std::uint32_t index) {
-  CORRIDOR_EXPECT(index < slots.size() && slots[index].has_value());
-  return *slots[index];
+// Calls visit(kind, slots) for every kind of variable.
+template <class AllSlots, class Visit>
+void for_each_kind(AllSlots& all, const Visit& visit) {
+  std::uint32_t kind = 0;
+  std::apply([&](auto&... slots) { (visit(static_cast<VariableKind>(kind++), slots), ...); }, all);
 }
 
-template <class T>
-void append_keys(const std::vector<std::optional<T>>& slots, VariableKind kind,
-                 std::vector<Key>& keys) {
-  for (std::uint32_t i = 0; i < slots.size(); ++i) {
-    if (slots[i]) keys.push_back({kind, i});
+// Calls visit with the place of that kind's slots among all, as a constant.
+template <class Visit>
+void with_slots(VariableKind kind, const Visit& visit) {
+  switch (kind) {
+    case VariableKind::kPose:
+      return visit(std::integral_constant<std::size_t, 0>());
+    case VariableKind::kVelocity:
+      return visit(std::integral_constant<std::size_t, 1>());
+    case VariableKind::kBias:
+      return visit(std::integral_constant<std::size_t, 2>());
+    case VariableKind::kWheelScale:
+      return visit(std::integral_constant<std::size_t, 3>());
   }
+}
+
+void move(OrientedPose& pose, const double* delta) {
+  pose = pose.plus({delta[0], delta[1], delta[2]});
+}
+
+template <class Vector>
+void move(Vector& value, const double* delta) {
+  value += Eigen::Map<const Vector>(delta);
+}
+
+void difference(const OrientedPose& pose, const OrientedPose& origin, double* delta) {
+  const Pose2::Tangent tau = pose.pose.minus(origin.pose);
+  std::copy(tau.begin(), tau.end(), delta);
+}
+
+template <class Vector>
+void difference(const Vector& value, const Vector& origin, double* delta) {
+  const Vector step = value - origin;
+  std::copy(step.begin(), step.end(), delta);
 }
 
 }  // namespace
@@ -28,97 +56,95 @@ std::string to_text(Key key) {
   return std::string(kNames[static_cast<std::size_t>(key.kind)]) + " " + std::to_string(key.index);
 }
 
-template <class T>
-void Values::set(std::vector<std::optional<T>>& slots, std::uint32_t index, const T& value) {
-  if (index >= slots.size()) slots.resize(index + 1);
-  if (!slots[index]) ++num_values_;
-  slots[index] = value;
+OrientedPose OrientedPose::plus(const Pose2::Tangent& tau) const {
+  const Pose2 step = Pose2::exp(tau);
+  const Eigen::Vector2d moved = pose.translation_m() + turn(step.translation_m());
+  return OrientedPose(Pose2(moved.x(), moved.y(), pose.theta_rad() + step.theta_rad()));
+}
+
+template <VariableKind kKind, class T>
+void Values::set(std::uint32_t index, const T& value) {
+  if (std::get<static_cast<std::size_t>(kKind)>(slots_).set(index, value)) ++num_values_;
 }
 
 void Values::set_pose(std::uint32_t index, const Pose2& T_map_base) {
   CORRIDOR_EXPECT(T_map_base.is_finite());
-  set(poses_, index, T_map_base);
+  set<VariableKind::kPose>(index, OrientedPose(T_map_base));
 }
 
 void Values::set_velocity(std::uint32_t index, const Eigen::Vector2d& velocity_mps) {
   CORRIDOR_EXPECT(velocity_mps.allFinite());
-  set(velocities_, index, velocity_mps);
+  set<VariableKind::kVelocity>(index, velocity_mps);
 }
 
 void Values::set_bias(std::uint32_t index, const Eigen::Vector3d& bias) {
   CORRIDOR_EXPECT(bias.allFinite());
-  set(biases_, index, bias);
+  set<VariableKind::kBias>(index, bias);
 }
 
 void Values::set_wheel_scale(std::uint32_t index, double scale_ratio) {
   CORRIDOR_EXPECT(std::isfinite(scale_ratio));
-  set(wheel_scales_, index, scale_ratio);
+  set<VariableKind::kWheelScale>(index, Eigen::Matrix<double, 1, 1>(scale_ratio));
 }
 
 bool Values::contains(Key key) const {
-  const auto has = [&](const auto& slots) {
-    return key.index < slots.size() && slots[key.index].has_value();
-  };
-  switch (key.kind) {
-    case VariableKind::kPose:
-      return has(poses_);
-    case VariableKind::kVelocity:
-      return has(velocities_);
-    case VariableKind::kBias:
-      return has(biases_);
-    case VariableKind::kWheelScale:
-      return has(wheel_scales_);
-  }
-  return false;
+  bool is_in = false;
+  with_slots(key.kind, [&](auto kind) { is_in = std::get<kind>(slots_).has(key.index); });
+  return is_in;
 }
 
-const Pose2& Values::pose(std::uint32_t index) const { return get(poses_, index); }
-const Eigen::Vector2d& Values::velocity(std::uint32_t index) const {
-  return get(velocities_, index);
+void Values::retract(Key key, const double* delta) {
+  CORRIDOR_EXPECT(contains(key));
+  with_slots(key.kind, [&](auto kind) { move(std::get<kind>(slots_)[key.index], delta); });
 }
-const Eigen::Vector3d& Values::bias(std::uint32_t index) const { return get(biases_, index); }
-double Values::wheel_scale(std::uint32_t index) const { return get(wheel_scales_, index); }
 
-void Values::retract(Key key, const Eigen::Ref<const Eigen::VectorXd>& delta) {
-  CORRIDOR_EXPECT(contains(key) && delta.rows() == key.dimension());
-  switch (key.kind) {
-    case VariableKind::kPose:
-      poses_[key.index] = poses_[key.index]->plus(Eigen::Vector3d(delta));
-      return;
-    case VariableKind::kVelocity:
-      *velocities_[key.index] += delta;
-      return;
-    case VariableKind::kBias:
-      *biases_[key.index] += delta;
-      return;
-    case VariableKind::kWheelScale:
-      *wheel_scales_[key.index] += delta(0);
-      return;
+void Values::retract(std::span<const Key> keys, const double* deltas) {
+  for (const Key key : keys) {
+    retract(key, deltas);
+    deltas += key.dimension();
   }
+}
+
+void Values::subtract(Key key, const Values& origin, double* delta) const {
+  CORRIDOR_EXPECT(contains(key) && origin.contains(key));
+  with_slots(key.kind, [&](auto kind) {
+    difference(std::get<kind>(slots_)[key.index], std::get<kind>(origin.slots_)[key.index], delta);
+  });
+}
+
+void Values::copy(Key key, const Values& other) {
+  CORRIDOR_EXPECT(other.contains(key));
+  with_slots(key.kind, [&](auto kind) {
+    set<static_cast<VariableKind>(kind.value)>(key.index, std::get<kind>(other.slots_)[key.index]);
+  });
 }
 
 void Values::merge(const Values& other) {
-  for (std::uint32_t i = 0; i < other.poses_.size(); ++i) {
-    if (other.poses_[i]) set(poses_, i, *other.poses_[i]);
-  }
-  for (std::uint32_t i = 0; i < other.velocities_.size(); ++i) {
-    if (other.velocities_[i]) set(velocities_, i, *other.velocities_[i]);
-  }
-  for (std::uint32_t i = 0; i < other.biases_.size(); ++i) {
-    if (other.biases_[i]) set(biases_, i, *other.biases_[i]);
-  }
-  for (std::uint32_t i = 0; i < other.wheel_scales_.size(); ++i) {
-    if (other.wheel_scales_[i]) set(wheel_scales_, i, *other.wheel_scales_[i]);
-  }
+  const auto take = [this](auto& slots, const auto& from) {
+    from.for_each([&](std::size_t index, const auto& value) {
+      if (slots.set(index, value)) ++num_values_;
+    });
+  };
+  take(std::get<0>(slots_), std::get<0>(other.slots_));
+  take(std::get<1>(slots_), std::get<1>(other.slots_));
+  take(std::get<2>(slots_), std::get<2>(other.slots_));
+  take(std::get<3>(slots_), std::get<3>(other.slots_));
+}
+
+void Values::erase(Key key) {
+  CORRIDOR_EXPECT(contains(key));
+  with_slots(key.kind, [&](auto kind) { std::get<kind>(slots_).erase(key.index); });
+  --num_values_;
 }
 
 std::vector<Key> Values::keys() const {
   std::vector<Key> keys;
   keys.reserve(num_values_);
-  append_keys(poses_, VariableKind::kPose, keys);
-  append_keys(velocities_, VariableKind::kVelocity, keys);
-  append_keys(biases_, VariableKind::kBias, keys);
-  append_keys(wheel_scales_, VariableKind::kWheelScale, keys);
+  for_each_kind(slots_, [&](VariableKind kind, const auto& slots) {
+    slots.for_each([&](std::size_t index, const auto&) {
+      keys.push_back({kind, static_cast<std::uint32_t>(index)});
+    });
+  });
   return keys;
 }
 

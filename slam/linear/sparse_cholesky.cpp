@@ -2,27 +2,35 @@
 
 #include <cholmod.h>
 
-#include <algorithm>
-#include <cstring>
-#include <vector>
+#include <cmath>
+#include <new>
 
 #include "slam/core/expect.hpp"
 
 namespace corridor::linear {
 namespace {
 
-// Smallest accepted ratio of the factor's diagonal entries, squared: below it the matrix counts as
-// rank deficient, since the solution would have no correct digit left.
-constexpr double kMinReciprocalCondition = 1e-15;
+int strategy_of(CholmodMethod method) {
+  switch (method) {
+    case CholmodMethod::kSimplicial:
+      return CHOLMOD_SIMPLICIAL;
+    case CholmodMethod::kSupernodal:
+      return CHOLMOD_SUPERNODAL;
+    case CholmodMethod::kAuto:
+      break;
+  }
+  return CHOLMOD_AUTO;
+}
 
-cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
+// CHOLMOD takes pointers to variables throughout, but writes through none of these.
+cholmod_sparse view_of(const BlockMatrix::Scalars& lower, const double* values) {
   cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
-  view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+  view.nrow = view.ncol = to_index(lower.rows());
+  view.nzmax = to_index(lower.nonZeros());
   view.p = const_cast<int*>(lower.outerIndexPtr());
   view.i = const_cast<int*>(lower.innerIndexPtr());
-  view.x = const_cast<double*>(lower.valuePtr());
-  view.stype = -1;
+  view.x = const_cast<double*>(values);
+  view.stype = -1;  // what lies above the diagonal is ignored
   view.itype = CHOLMOD_INT;
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
@@ -31,29 +39,48 @@ cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
   return view;
 }
 
-// Pattern of the blocks' graph, lower triangle, one scalar entry per block pair.
-Eigen::SparseMatrix<double> block_pattern(const Eigen::SparseMatrix<double>& lower,
-                                          std::span<const int> block_starts) {
-  const int num_blocks = static_cast<int>(block_starts.size()) - 1;
-  std::vector<int> block_of_row(static_cast<std::size_t>(lower.rows()));
-  for (int b = 0; b < num_blocks; ++b) {
-    std::fill(block_of_row.begin() + block_starts[static_cast<std::size_t>(b)],
-              block_of_row.begin() + block_starts[static_cast<std::size_t>(b) + 1], b);
+cholmod_dense view_of(double* values, Eigen::Index num_rows) {
+  cholmod_dense view{};
+  view.nrow = view.nzmax = view.d = to_index(num_rows);
+  view.ncol = 1;
+  view.x = values;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  return view;
+}
+
+std::vector<int> scalar_order(const std::vector<int>& order, const std::vector<int>& starts) {
+  std::vector<int> rows;
+  rows.reserve(to_index(starts.back()));
+  for (const int variable : order) {
+    const auto v = to_index(variable);
+    for (int row = starts[v]; row < starts[v + 1]; ++row) rows.push_back(row);
   }
-  Eigen::SparseMatrix<double> pattern(num_blocks, num_blocks);
-  pattern.reserve(lower.nonZeros() / 4 + num_blocks);
-  for (int b = 0; b < num_blocks; ++b) {
-    pattern.startVec(b);
-    int last = -1;
-    const int column = block_starts[static_cast<std::size_t>(b)];
-    for (Eigen::SparseMatrix<double>::InnerIterator it(lower, column); it; ++it) {
-      const int row_block = block_of_row[static_cast<std::size_t>(it.row())];
-      if (row_block != last) pattern.insertBack(row_block, b) = 1;
-      last = row_block;
+  return rows;
+}
+
+// Shows the diagonal of L to the check, in the order of elimination.
+void take_diagonal(const cholmod_factor& factor, FactorDiagonal& diagonal) {
+  const auto* values = static_cast<const double*>(factor.x);
+  const auto* rows = static_cast<const int*>(factor.Perm);
+  const auto* starts = static_cast<const int*>(factor.p);
+  if (!factor.is_super) {
+    for (std::size_t k = 0; k < factor.n; ++k) {
+      const double entry = values[starts[k]];
+      if (!diagonal.take(factor.is_ll ? entry : std::sqrt(entry), rows[k])) return;
+    }
+    return;
+  }
+  const auto* first_columns = static_cast<const int*>(factor.super);
+  const auto* first_rows = static_cast<const int*>(factor.pi);
+  const auto* first_values = static_cast<const int*>(factor.px);
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const int height = first_rows[s + 1] - first_rows[s];
+    for (int k = first_columns[s]; k < first_columns[s + 1]; ++k) {
+      const int at = first_values[s] + (k - first_columns[s]) * (height + 1);
+      if (!diagonal.take(values[at], rows[k])) return;
     }
   }
-  pattern.finalize();
-  return pattern;
 }
 
 }  // namespace
@@ -61,103 +88,81 @@ Eigen::SparseMatrix<double> block_pattern(const Eigen::SparseMatrix<double>& low
 struct SparseCholesky::Impl {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  std::vector<int> outer, inner;  // pattern of the last analysis
-  int num_analyses = 0;
-  int first_bad_column = -1;
+  cholmod_dense *workspace = nullptr, *small_workspace = nullptr;  // of solutions
+  std::vector<double> damped;                                      // values of the matrix
 
-  Impl() {
+  explicit Impl(CholmodMethod method) {
     cholmod_start(&common);
     common.print = 0;
+    common.supernodal = strategy_of(method);
     common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
     common.postorder = 1;
     common.final_ll = 1;
     common.quick_return_if_not_posdef = 1;
   }
   ~Impl() {
+    cholmod_free_dense(&workspace, &common);
+    cholmod_free_dense(&small_workspace, &common);
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  bool has_pattern_of(const Eigen::SparseMatrix<double>& lower) const {
-    return factor != nullptr && outer.size() == static_cast<std::size_t>(lower.cols()) + 1 &&
-           inner.size() == static_cast<std::size_t>(lower.nonZeros()) &&
-           std::equal(outer.begin(), outer.end(), lower.outerIndexPtr()) &&
-           std::equal(inner.begin(), inner.end(), lower.innerIndexPtr());
-  }
-
-  bool analyze(const Eigen::SparseMatrix<double>& lower, std::span<const int> block_starts) {
-    Eigen::SparseMatrix<double> pattern = block_pattern(lower, block_starts);
-    cholmod_sparse block_view = view_of(pattern);
-    std::vector<int> block_order(static_cast<std::size_t>(pattern.cols()));
-    if (!cholmod_amd(&block_view, nullptr, 0, block_order.data(), &common)) return false;
-    std::vector<int> order;
-    order.reserve(static_cast<std::size_t>(lower.cols()));
-    for (const int block : block_order) {
-      const auto b = static_cast<std::size_t>(block);
-      for (int i = block_starts[b]; i < block_starts[b + 1]; ++i) order.push_back(i);
+  const double* damped_values(const BlockMatrix::Scalars& lower,
+                              const std::vector<int>& block_starts, double damping) {
+    damped.assign(lower.valuePtr(), lower.valuePtr() + lower.nonZeros());
+    for (std::size_t v = 0; v + 1 < block_starts.size(); ++v) {
+      for (int row = block_starts[v]; row < block_starts[v + 1]; ++row) {
+        damped[to_index(lower.outerIndexPtr()[row] + row - block_starts[v])] *= 1 + damping;
+      }
     }
-    common.method[0].ordering = CHOLMOD_GIVEN;
-    cholmod_free_factor(&factor, &common);
-    cholmod_sparse view = view_of(lower);
-    factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
-    outer.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1);
-    inner.assign(lower.innerIndexPtr(), lower.innerIndexPtr() + lower.nonZeros());
-    ++num_analyses;
-    return factor != nullptr;
+    return damped.data();
   }
 };
 
-SparseCholesky::SparseCholesky() : impl_(std::make_unique<Impl>()) {}
+SparseCholesky::SparseCholesky(CholmodMethod method) : impl_(std::make_unique<Impl>(method)) {}
 SparseCholesky::~SparseCholesky() = default;
-SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
-SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-CholeskyStatus SparseCholesky::factorize(const Eigen::SparseMatrix<double>& lower,
-                                         std::span<const int> block_starts) {
-  CORRIDOR_EXPECT(lower.isCompressed() && lower.rows() == lower.cols() && lower.rows() > 0);
-  CORRIDOR_EXPECT(block_starts.size() >= 2 && block_starts.back() == lower.rows());
-  impl_->first_bad_column = -1;
-  if (!impl_->has_pattern_of(lower) && !impl_->analyze(lower, block_starts)) {
-    return CholeskyStatus::kOutOfMemory;
-  }
-  cholmod_sparse view = view_of(lower);
+void SparseCholesky::analyze(const BlockMatrix& matrix, const std::vector<int>& order) {
+  std::vector<int> rows = scalar_order(order, matrix.starts());
+  const BlockMatrix::Scalars lower = matrix.scalars();
+  cholmod_sparse view = view_of(lower, lower.valuePtr());
+  cholmod_free_factor(&impl_->factor, &impl_->common);
+  impl_->factor = cholmod_analyze_p(&view, rows.data(), nullptr, 0, &impl_->common);
+  if (impl_->factor == nullptr) throw std::bad_alloc();
+}
+
+int SparseCholesky::eliminate(const BlockMatrix& matrix, double damping) {
+  const BlockMatrix::Scalars lower = matrix.scalars();
+  const double* values =
+      damping > 0 ? impl_->damped_values(lower, matrix.starts(), damping) : lower.valuePtr();
+  cholmod_sparse view = view_of(lower, values);
   cholmod_factorize(&view, impl_->factor, &impl_->common);
-  if (impl_->common.status == CHOLMOD_OUT_OF_MEMORY) return CholeskyStatus::kOutOfMemory;
+  // Also if the factor has more entries than CHOLMOD can count.
+  if (impl_->common.status < CHOLMOD_OK) throw std::bad_alloc();
   const cholmod_factor& factor = *impl_->factor;
-  if (impl_->common.status == CHOLMOD_NOT_POSDEF || factor.minor < factor.n) {
-    const auto minor = std::min(factor.minor, factor.n - 1);
-    impl_->first_bad_column = static_cast<const int*>(factor.Perm)[minor];
-    return CholeskyStatus::kNotPositiveDefinite;
-  }
-  if (!(cholmod_rcond(impl_->factor, &impl_->common) > kMinReciprocalCondition)) {
-    return CholeskyStatus::kNotPositiveDefinite;
-  }
-  return CholeskyStatus::kOk;
+  if (factor.minor < factor.n) return static_cast<const int*>(factor.Perm)[factor.minor];
+  FactorDiagonal diagonal;
+  take_diagonal(factor, diagonal);
+  return diagonal.bad_row();
 }
 
-Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
-  CORRIDOR_EXPECT(impl_->factor != nullptr &&
-                  static_cast<std::size_t>(b.rows()) == impl_->factor->n);
-  Eigen::MatrixXd right_hand_side = b;
-  cholmod_dense view{};
-  view.nrow = static_cast<std::size_t>(b.rows());
-  view.ncol = static_cast<std::size_t>(b.cols());
-  view.nzmax = view.nrow * view.ncol;
-  view.d = view.nrow;
-  view.x = right_hand_side.data();
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, impl_->factor, &view, &impl_->common);
-  CORRIDOR_ENSURE(x != nullptr);
-  std::memcpy(right_hand_side.data(), x->x, sizeof(double) * view.nzmax);
-  cholmod_free_dense(&x, &impl_->common);
-  return right_hand_side;
+void SparseCholesky::substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                Eigen::Ref<Eigen::MatrixXd>& x) {
+  for (Eigen::Index c = 0; c < b.cols(); ++c) {
+    cholmod_dense b_view = view_of(const_cast<double*>(b.col(c).data()), b.rows());
+    cholmod_dense x_view = view_of(x.col(c).data(), x.rows());
+    cholmod_dense* solution = &x_view;
+    const int is_solved =
+        cholmod_solve2(CHOLMOD_A, impl_->factor, &b_view, nullptr, &solution, nullptr,
+                       &impl_->workspace, &impl_->small_workspace, &impl_->common);
+    CORRIDOR_ENSURE(is_solved && solution == &x_view);
+  }
 }
 
-int SparseCholesky::first_bad_column() const { return impl_->first_bad_column; }
 double SparseCholesky::num_factor_nonzeros() const { return impl_->common.lnz; }
-int SparseCholesky::num_analyses() const { return impl_->num_analyses; }
+double SparseCholesky::num_flops() const { return impl_->common.fl; }
 
 }  // namespace corridor::linear

@@ -1,43 +1,38 @@
-// Sparse Cholesky factorisation of symmetric positive definite matrices through SuiteSparse CHOLMOD
-// [Chen2008], with the fill-reducing ordering (AMD) computed on the graph of blocks, as g2o does.
-// The symbolic analysis is kept while the pattern stays the same. Never throws, never prints.
+// Sparse Cholesky factorisation through SuiteSparse CHOLMOD [Chen2008], straight on the block
+// matrix's storage.
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <memory>
-#include <span>
+#include <string_view>
+#include <vector>
+
+#include "slam/linear/linear_solver.hpp"
 
 namespace corridor::linear {
 
-enum class CholeskyStatus {
-  kOk,
-  kNotPositiveDefinite,  // see first_bad_column()
-  kOutOfMemory,
+// Pose graphs have columns too short for BLAS: linear/cholmod/factorize_* of bench/micro.
+enum class CholmodMethod {
+  kSimplicial,  // column by column
+  kSupernodal,  // dense blocks, through BLAS
+  kAuto,        // CHOLMOD's choice: supernodal at 40 or more flops per nonzero of the factor
 };
 
-class SparseCholesky {
+class SparseCholesky final : public LinearSolver {
  public:
-  SparseCholesky();
-  ~SparseCholesky();
-  SparseCholesky(SparseCholesky&&) noexcept;
-  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+  explicit SparseCholesky(CholmodMethod method = CholmodMethod::kSimplicial);
+  ~SparseCholesky() override;
 
-  // lower: lower triangle of the matrix, n x n, compressed, row indices sorted in each column.
-  // block_starts: first row of every variable's block, ascending, plus n at the end.
-  CholeskyStatus factorize(const Eigen::SparseMatrix<double>& lower,
-                           std::span<const int> block_starts);
-  // x = A^-1 b; b is n x k. Requires a successful factorize().
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-
-  // Scalar column (in the caller's order) at which the factorisation broke down; -1 if it did not.
-  [[nodiscard]] int first_bad_column() const;
-  // Nonzeros of the factor L.
-  [[nodiscard]] double num_factor_nonzeros() const;
-  // How often the symbolic analysis was done since construction.
-  [[nodiscard]] int num_analyses() const;
+  [[nodiscard]] std::string_view name() const override { return "cholmod"; }
+  [[nodiscard]] double num_factor_nonzeros() const override;
+  [[nodiscard]] double num_flops() const override;
 
  private:
+  void analyze(const BlockMatrix& matrix, const std::vector<int>& order) override;
+  int eliminate(const BlockMatrix& matrix, double damping) override;
+  void substitute(const Eigen::Ref<const Eigen::MatrixXd>& b,
+                  Eigen::Ref<Eigen::MatrixXd>& x) override;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -10,19 +10,21 @@ namespace corridor::testing {
 // Step of the difference: its error is about step^2 * (third derivative) + rounding / step.
 inline constexpr double kNumericStep = 1e-6;
 
-inline Eigen::MatrixXd numeric_jacobian(const graph::Factor& factor, const graph::Values& values) {
-  Eigen::MatrixXd jacobian(factor.dimension(), factor.num_columns());
-  Eigen::VectorXd plus(factor.dimension()), minus(factor.dimension());
+template <class F>
+graph::Jacobian<F> numeric_jacobian(const F& factor, const graph::Values& values) {
+  graph::Residual<F> plus, minus;
+  graph::Jacobian<F> jacobian;
+  factor.linearize(values, plus, jacobian);  // for its size
   int column = 0;
   for (const graph::Key key : factor.keys()) {
     for (int d = 0; d < key.dimension(); ++d, ++column) {
-      Eigen::VectorXd delta = Eigen::VectorXd::Zero(key.dimension());
-      delta(d) = kNumericStep;
+      Eigen::Vector3d delta = kNumericStep * Eigen::Vector3d::Unit(d);
       graph::Values moved = values;
-      moved.retract(key, delta);
+      moved.retract(key, delta.data());
       factor.residual(moved, plus);
       moved = values;
-      moved.retract(key, -delta);
+      delta = -delta;
+      moved.retract(key, delta.data());
       factor.residual(moved, minus);
       jacobian.col(column) = (plus - minus) / (2 * kNumericStep);
     }

@@ -5,11 +5,11 @@
 #include <map>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "datasets/formats/atomic_file.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
-#include "slam/graph/factors/pose_factors.hpp"
 
 namespace corridor::formats {
 namespace {
@@ -42,18 +42,18 @@ Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& val
   PoseGraph written;
   std::set<std::uint32_t> poses_with_prior;
   std::map<std::string, std::size_t> left_out;
-  for (const graph::FactorPtr& factor : graph.slots()) {
-    if (factor == nullptr) continue;
-    if (const auto* relative = dynamic_cast<const graph::RelativePose*>(factor.get())) {
-      const auto keys = relative->keys();
-      written.edges.push_back(
-          {keys[0].index, keys[1].index, relative->measured_T_i_j(), relative->information()});
-    } else if (const auto* prior = dynamic_cast<const graph::PosePrior*>(factor.get())) {
-      poses_with_prior.insert(prior->keys()[0].index);
+  std::map<graph::FactorId, PoseGraph::Edge> edges;  // by number: the graph keeps no order
+  graph.for_each([&]<class F>(graph::FactorId id, const F& factor, const graph::RobustKernel&) {
+    if constexpr (std::is_same_v<F, graph::RelativePose>) {
+      edges.emplace(id, PoseGraph::Edge{factor.keys()[0].index, factor.keys()[1].index,
+                                        factor.measured_T_i_j(), factor.information()});
+    } else if constexpr (std::is_same_v<F, graph::PosePrior>) {
+      poses_with_prior.insert(factor.keys()[0].index);
     } else {
-      ++left_out[std::string(factor->type())];
+      ++left_out[std::string(F::kName)];
     }
-  }
+  });
+  for (const auto& [id, edge] : edges) written.edges.push_back(edge);
   for (const std::uint32_t index : poses_of(values)) {
     written.vertices.push_back({index, values.pose(index)});
   }

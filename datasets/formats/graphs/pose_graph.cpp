@@ -1,41 +1,24 @@
 #include "datasets/formats/graphs/pose_graph.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <numeric>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "slam/core/disjoint_sets.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
 
 namespace corridor::formats {
-namespace {
-
-// Union-find with path halving.
-std::size_t root_of(std::vector<std::size_t>& parents, std::size_t index) {
-  while (parents[index] != index) index = parents[index] = parents[parents[index]];
-  return index;
-}
-
-}  // namespace
-
 std::size_t num_parts(const PoseGraph& graph) {
   std::unordered_map<std::uint32_t, std::size_t> index_of;
   for (const PoseGraph::Vertex& vertex : graph.vertices) {
     index_of.emplace(vertex.id, index_of.size());
   }
-  std::vector<std::size_t> parents(index_of.size());
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
-  std::size_t num_left = parents.size();
+  DisjointSets parts(index_of.size());
   for (const PoseGraph::Edge& edge : graph.edges) {
-    const std::size_t a = root_of(parents, index_of.at(edge.i));
-    const std::size_t b = root_of(parents, index_of.at(edge.j));
-    if (a == b) continue;
-    parents[a] = b;
-    --num_left;
+    parts.join(index_of.at(edge.i), index_of.at(edge.j));
   }
-  return num_left;
+  return parts.num_sets();
 }
 
 std::size_t num_repeated_pairs(const PoseGraph& graph) {
@@ -50,7 +33,7 @@ GraphProblem factor_graph_of(const PoseGraph& graph) {
     problem.values.set_pose(vertex.id, vertex.T_map_base);
   }
   for (const PoseGraph::Edge& edge : graph.edges) {
-    problem.factors.add(std::make_unique<graph::RelativePose>(
+    problem.factors.add(graph::RelativePose(
         graph::pose_key(edge.i), graph::pose_key(edge.j), edge.T_i_j,
         graph::square_root_information(edge.information), graph::RelativePoseError::kComponents));
   }

@@ -1,44 +1,46 @@
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
 
 #include <cmath>
-#include <map>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 #include "slam/core/expect.hpp"
-#include "slam/linear/sparse_cholesky.hpp"
 
 namespace corridor::backend {
 namespace {
 
 using graph::FactorId;
-using graph::FactorPtr;
 using graph::Key;
+using graph::NewFactor;
 using graph::Values;
 
 class LeastSquares final : public BackEnd {
  public:
-  explicit LeastSquares(const LeastSquaresParams& params) : params_(params) {}
+  explicit LeastSquares(const LeastSquaresParams& params)
+      : params_(params), cholesky_(linear::make_linear_solver(params.linear)) {}
 
   std::string_view name() const override {
     return params_.use_damping ? "levenberg" : "gauss-newton";
   }
 
-  std::vector<FactorId> add(std::vector<FactorPtr> new_factors, const Values& new_values) override {
+  std::vector<FactorId> add(std::vector<NewFactor> new_factors, const Values& new_values) override {
     for (const Key key : new_values.keys()) {
       if (!equations_.contains(key)) equations_.add_variable(key);
     }
     values_.merge(new_values);
     std::vector<FactorId> ids;
-    for (FactorPtr& factor : new_factors) {
-      for (const Key key : factor->keys()) CORRIDOR_EXPECT(values_.contains(key));
+    for (NewFactor& factor : new_factors) {
+      for (const Key key : graph::keys_of(factor.factor)) CORRIDOR_EXPECT(values_.contains(key));
       const FactorId id = graph_.add(std::move(factor));
-      equations_.add_factor(id, graph_.factor(id));
+      equations_.add_factor(id, graph_);
       ids.push_back(id);
     }
     return ids;
   }
 
-  BackEndReport update(std::vector<FactorPtr> new_factors, const Values& new_values,
+  BackEndReport update(std::vector<NewFactor> new_factors, const Values& new_values,
                        std::span<const FactorId> removed_factors) override {
     for (const FactorId id : removed_factors) graph_.remove(id);
     std::vector<FactorId> ids = add(std::move(new_factors), new_values);
@@ -58,21 +60,19 @@ class LeastSquares final : public BackEnd {
                   "marginal covariance");
     }
     equations_.linearize(graph_, values_);
-    if (factorize(equations_.lower_hessian()) != linear::CholeskyStatus::kOk) {
-      return fail(ErrorCode::kInvalid, "the normal equations are singular", "marginal covariance",
-                  "a prior and factors that determine every variable");
+    if (cholesky_->factorize(equations_.hessian()) != linear::CholeskyStatus::kOk) {
+      return fail(ErrorCode::kInvalid, "the normal equations are singular" + place_of_failure(),
+                  "marginal covariance", "a prior and factors that determine every variable");
     }
     const int row = equations_.first_row(key);
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(equations_.gradient().rows(), key.dimension());
     unit.middleRows(row, key.dimension()).setIdentity();
-    return Eigen::MatrixXd(cholesky_.solve(unit).middleRows(row, key.dimension()));
+    Eigen::MatrixXd columns(unit.rows(), unit.cols());  // of the inverse Hessian
+    cholesky_->solve(unit, columns);
+    return Eigen::MatrixXd(columns.middleRows(row, key.dimension()));
   }
 
  private:
-  linear::CholeskyStatus factorize(const Eigen::SparseMatrix<double>& lower) {
-    return cholesky_.factorize(lower, equations_.block_starts());
-  }
-
   BackEndReport begin_report() const {
     BackEndReport report;
     report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
@@ -80,31 +80,32 @@ class LeastSquares final : public BackEnd {
     return report;
   }
 
-  // delta of (H + lambda diag(H)) delta = -g.
-  bool solve_step(double lambda, Eigen::VectorXd& delta) {
-    damped_ = equations_.lower_hessian();
-    if (lambda > 0) {
-      for (int i = 0; i < damped_.cols(); ++i) {
-        damped_.valuePtr()[damped_.outerIndexPtr()[i]] *= 1 + lambda;
-      }
-    }
-    if (factorize(damped_) != linear::CholeskyStatus::kOk) return false;
-    delta = -cholesky_.solve(equations_.gradient());
-    return delta.allFinite();
+  // The variable at which the last factorisation broke down, if it was one.
+  std::optional<Key> undetermined() const {
+    const int variable = cholesky_->first_bad_variable();
+    if (variable < 0) return std::nullopt;
+    return equations_.variables()[static_cast<std::size_t>(variable)];
+  }
+  std::string place_of_failure() const {
+    const std::optional<Key> key = undetermined();
+    return key ? " at " + graph::to_text(*key) : "";
   }
 
-  void apply(const Eigen::VectorXd& delta) {
-    int row = 0;
-    for (const Key key : equations_.variables()) {
-      values_.retract(key, delta.segment(row, key.dimension()));
-      row += key.dimension();
+  // delta_ of (H + lambda diag(H)) delta = -g.
+  bool solve_step(double lambda) {
+    if (cholesky_->factorize(equations_.hessian(), lambda) != linear::CholeskyStatus::kOk) {
+      return false;
     }
+    delta_.resize(equations_.gradient().rows());
+    cholesky_->solve(-equations_.gradient(), delta_);
+    return delta_.allFinite();
   }
 
   BackEndReport minimize(int max_iterations) {
     BackEndReport report = begin_report();
     if (report.num_factors == 0) return report;
     report.chi2_initial = report.chi2 = equations_.linearize(graph_, values_);
+    is_linearized_ = true;
     if (!std::isfinite(report.chi2)) {
       report.status = SolveStatus::kNotFinite;
       return report;
@@ -112,8 +113,8 @@ class LeastSquares final : public BackEnd {
     report.status = SolveStatus::kMaxIterations;
     Damping damping{params_.use_damping ? params_.initial_lambda : 0, params_.lambda_increase};
     while (report.num_iterations < max_iterations && report.status == SolveStatus::kMaxIterations) {
-      if (report.num_iterations > 0) equations_.linearize(graph_, values_);
-      iterate(damping, report);
+      ++report.num_iterations;
+      iterate(damping, report.num_iterations == max_iterations, report);
     }
     return report;
   }
@@ -123,19 +124,26 @@ class LeastSquares final : public BackEnd {
     double increase;
   };
 
-  // One step from the present linearisation: taken or taken back, with the status that follows.
-  void iterate(Damping& damping, BackEndReport& report) {
-    Eigen::VectorXd delta;
-    ++report.num_iterations;
-    if (!solve_step(damping.lambda, delta)) {
+  // The cost at the present estimate. A plain step always stands, so that the linearisation for
+  // the next one gives it along; a damped step may be taken back, and then H is needed again.
+  double evaluate(bool is_last_step) {
+    is_linearized_ = !params_.use_damping && !is_last_step;
+    return is_linearized_ ? equations_.linearize(graph_, values_) : graph_.cost(values_);
+  }
+
+  // One step from the present estimate: taken or taken back, with the status that follows.
+  void iterate(Damping& damping, bool is_last, BackEndReport& report) {
+    if (!is_linearized_) equations_.linearize(graph_, values_);
+    if (!solve_step(damping.lambda)) {
       report.status = SolveStatus::kRankDeficient;
+      report.undetermined = undetermined();
       return;
     }
-    const Values before = values_;
-    apply(delta);
+    before_ = values_;
+    values_.retract(equations_.variables(), delta_.data());
     report.num_relinearized += report.num_variables;
-    const double chi2 = graph_.chi2(values_);
-    const bool is_short = delta.squaredNorm() < params_.min_squared_step;
+    const bool is_short = delta_.squaredNorm() < params_.min_squared_step;
+    const double chi2 = evaluate(is_last || is_short);
     // Damped steps are judged by chi2; plain ones always stand.
     if (std::isfinite(chi2) && (!params_.use_damping || chi2 < report.chi2)) {
       const double decrease = std::abs(report.chi2 - chi2);
@@ -146,7 +154,8 @@ class LeastSquares final : public BackEnd {
       if (is_short || is_flat) report.status = SolveStatus::kConverged;
       return;
     }
-    values_ = before;
+    std::swap(values_, before_);
+    is_linearized_ = true;
     if (!params_.use_damping) {
       report.status = SolveStatus::kNotFinite;
     } else if (is_short) {
@@ -161,17 +170,14 @@ class LeastSquares final : public BackEnd {
   graph::FactorGraph graph_;
   Values values_;
   NormalEquations equations_;
-  linear::SparseCholesky cholesky_;
-  Eigen::SparseMatrix<double> damped_;
+  std::unique_ptr<linear::LinearSolver> cholesky_;
+  // Of the solution under way.
+  bool is_linearized_ = false;  // the equations are those of the present estimate
+  Eigen::VectorXd delta_;
+  Values before_;  // the estimate before the last step
 };
 
 }  // namespace
-
-std::string to_text(SolveStatus status) {
-  constexpr const char* kNames[] = {"converged", "max_iterations", "rank_deficient", "not_finite",
-                                    "empty"};
-  return kNames[static_cast<std::size_t>(status)];
-}
 
 std::unique_ptr<BackEnd> make_least_squares(const LeastSquaresParams& params) {
   return std::make_unique<LeastSquares>(params);

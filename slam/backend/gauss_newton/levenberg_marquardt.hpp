@@ -1,4 +1,4 @@
-// Batch least squares on CHOLMOD, the g2o way: Gauss-Newton, and Levenberg-Marquardt with
+// Batch least squares on sparse Cholesky, the g2o way: Gauss-Newton, and Levenberg-Marquardt with
 // Marquardt's scaling. [Konolige2010] section III, [Kuemmerle2011] (g2o).
 #pragma once
 
@@ -6,6 +6,7 @@
 
 #include "slam/backend/back_end.hpp"
 #include "slam/core/params.hpp"
+#include "slam/linear/make_linear_solver.hpp"
 
 namespace corridor::backend {
 
@@ -18,6 +19,8 @@ struct LeastSquaresParams {
   double lambda_decrease = 0.5;         // after a successful step
   double lambda_increase = 2.0;         // after a failed one; itself doubled at each failure
   int update_iterations = 1;            // iterations of update(), which starts near the optimum
+  // No number to tune: both solve the same equations, block several times faster.
+  linear::LinearSolverKind linear = linear::LinearSolverKind::kBlock;
 
   template <class V>
   static void visit(LeastSquaresParams& p, V&& v) {

@@ -2,92 +2,79 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <type_traits>
 
-#include "slam/core/expect.hpp"
+#include "slam/backend/weighted_terms.hpp"
 
 namespace corridor::backend {
-namespace {
-
-constexpr int kMaxRows = 16;
-constexpr int kMaxColumns = 24;
-using Residual = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxRows, 1>;
-using Jacobian =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxRows, kMaxColumns>;
-
-}  // namespace
-
 void NormalEquations::add_variable(graph::Key key) {
-  CORRIDOR_EXPECT(!contains(key));
-  index_of_[key] = blocks_.add_variable(key.dimension());
-  variables_.push_back(key);
+  index_.add(key, blocks_.add_variable(key.dimension()));
 }
 
-void NormalEquations::add_factor(graph::FactorId id, const graph::Factor& factor) {
-  CORRIDOR_EXPECT(factor.dimension() <= kMaxRows && factor.num_columns() <= kMaxColumns);
-  FactorPlan plan;
-  std::vector<int> indices, offsets;
-  int offset = 0;
-  for (const graph::Key key : factor.keys()) {
-    indices.push_back(index_of_.at(key));
-    offsets.push_back(offset);
-    plan.first_rows.push_back(blocks_.starts()[static_cast<std::size_t>(indices.back())]);
-    offset += key.dimension();
+void NormalEquations::add_factor(graph::FactorId id, const graph::FactorGraph& graph) {
+  if (first_target_.size() <= id) {
+    first_target_.resize(id + 1);
+    first_row_.resize(id + 1);
   }
-  const auto keys = factor.keys();
+  first_target_[id] = targets_.size();
+  first_row_[id] = rows_.size();
+  const std::span<const graph::Key> keys = graph.keys(id);
   for (std::size_t a = 0; a < keys.size(); ++a) {
-    for (std::size_t b = 0; b < keys.size(); ++b) {
-      if (indices[a] < indices[b]) continue;
-      plan.targets.push_back({blocks_.slot(indices[a], indices[b]), offsets[a], keys[a].dimension(),
-                              offsets[b], keys[b].dimension()});
+    const int row = index_.of(keys[a]);
+    rows_.push_back(blocks_.starts()[static_cast<std::size_t>(row)]);
+    for (std::size_t b = 0; b <= a; ++b) {
+      const int column = index_.of(keys[b]);
+      targets_.push_back(
+          {blocks_.slot(std::max(row, column), std::min(row, column)), row < column});
     }
   }
-  if (plans_.size() <= id) plans_.resize(id + 1);
-  plans_[id] = std::move(plan);
+}
+
+template <class F>
+void NormalEquations::add_terms(graph::FactorId id, const F& factor, const graph::Residual<F>& r,
+                                const graph::Jacobian<F>& J) {
+  const Target* target = &targets_[first_target_[id]];
+  const int* row = &rows_[first_row_[id]];
+  for_each_block(
+      factor, J,
+      [&](std::size_t a, const auto& J_a) {
+        constexpr int kColumns = std::remove_cvref_t<decltype(J_a)>::ColsAtCompileTime;
+        gradient_.segment<kColumns>(row[a], J_a.cols()).noalias() += J_a.transpose() * r;
+      },
+      [&](std::size_t, std::size_t, const auto& J_a, const auto& J_b) {
+        if (target->is_transposed) {
+          blocks_.add(target->slot, J_b.transpose().lazyProduct(J_a));
+        } else {
+          blocks_.add(target->slot, J_a.transpose().lazyProduct(J_b));
+        }
+        ++target;
+      });
 }
 
 double NormalEquations::linearize(const graph::FactorGraph& graph, const graph::Values& values) {
   blocks_.set_zero();
   gradient_.setZero(blocks_.num_rows());
-  double chi2 = 0;
-  Residual r;
-  Jacobian J;
-  for (graph::FactorId id = 0; id < graph.slots().size(); ++id) {
-    if (!graph.contains(id)) continue;
-    const graph::Factor& factor = graph.factor(id);
-    r.resize(factor.dimension());
-    J.resize(factor.dimension(), factor.num_columns());
-    factor.linearize(values, r, J);
-    if (!r.allFinite() || !J.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-    chi2 += r.squaredNorm();
-    const FactorPlan& plan = plans_[id];
-    int column = 0;
-    for (std::size_t k = 0; k < plan.first_rows.size(); ++k) {
-      const int dimension = factor.keys()[k].dimension();
-      gradient_.segment(plan.first_rows[k], dimension).noalias() +=
-          J.middleCols(column, dimension).transpose() * r;
-      column += dimension;
-    }
-    for (const BlockTarget& t : plan.targets) {
-      blocks_.block(t.slot) += (J.middleCols(t.row_offset, t.num_rows).transpose())
-                                   .lazyProduct(J.middleCols(t.column_offset, t.num_columns));
-    }
-  }
-  return chi2;
-}
-
-const Eigen::SparseMatrix<double>& NormalEquations::lower_hessian() {
-  blocks_.write_lower(lower_);
-  return lower_;
+  double cost = 0;
+  graph.for_each(
+      [&]<class F>(graph::FactorId id, const F& factor, const graph::RobustKernel& kernel) {
+        graph::Residual<F> r;
+        graph::Jacobian<F> J;
+        cost += linearize_weighted(factor, kernel, values, r, J);
+        add_terms(id, factor, r, J);
+      });
+  // What is not finite in a Jacobian is not in the gradient either.
+  return gradient_.allFinite() ? cost : std::numeric_limits<double>::quiet_NaN();
 }
 
 int NormalEquations::first_row(graph::Key key) const {
-  return blocks_.starts()[static_cast<std::size_t>(index_of_.at(key))];
+  return blocks_.starts()[static_cast<std::size_t>(index_.of(key))];
 }
 
 graph::Key NormalEquations::variable_of_row(int row) const {
   const auto& starts = blocks_.starts();
   const auto next = std::upper_bound(starts.begin(), starts.end(), row);
-  return variables_[static_cast<std::size_t>(next - starts.begin()) - 1];
+  return variables()[static_cast<std::size_t>(next - starts.begin()) - 1];
 }
 
 }  // namespace corridor::backend

@@ -1,15 +1,16 @@
-// Linearises a factor graph into H delta = -g with H = sum J^T J and g = sum J^T r, block by block.
+// Linearises a factor graph into H delta = -g with H = sum w J^T J and g = sum w J^T r, block by
+// block, where w is the weight that a factor's robust kernel gives it at its present residual.
 // Keeps the structure between calls; factors and variables may be added, factors removed.
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <vector>
 
 #include "slam/graph/factor_graph.hpp"
 #include "slam/graph/values.hpp"
+#include "slam/graph/variable_index.hpp"
 #include "slam/linear/block_matrix.hpp"
 
 namespace corridor::backend {
@@ -18,40 +19,42 @@ class NormalEquations {
  public:
   void add_variable(graph::Key key);
   // Requires that every key of the factor was added.
-  void add_factor(graph::FactorId id, const graph::Factor& factor);
+  void add_factor(graph::FactorId id, const graph::FactorGraph& graph);
 
-  // Evaluates every factor at `values`; returns chi2. Not finite if a residual or Jacobian is not.
+  // Evaluates every factor at `values`; returns the cost, which is chi2 where no factor has a
+  // kernel. Not finite if a residual or Jacobian is not.
   double linearize(const graph::FactorGraph& graph, const graph::Values& values);
 
   [[nodiscard]] const Eigen::VectorXd& gradient() const { return gradient_; }
-  // Scalar lower triangle of H of the last linearize().
-  [[nodiscard]] const Eigen::SparseMatrix<double>& lower_hessian();
-  [[nodiscard]] const std::vector<int>& block_starts() const { return blocks_.starts(); }
-  [[nodiscard]] const std::vector<graph::Key>& variables() const { return variables_; }
-  [[nodiscard]] bool contains(graph::Key key) const { return index_of_.contains(key); }
+  // H of the last linearize().
+  [[nodiscard]] const linear::BlockMatrix& hessian() const { return blocks_; }
+  [[nodiscard]] const std::vector<graph::Key>& variables() const { return index_.keys(); }
+  [[nodiscard]] bool contains(graph::Key key) const { return index_.contains(key); }
   // First scalar row of a variable. Requires contains(key).
   [[nodiscard]] int first_row(graph::Key key) const;
   // The variable that owns a scalar row.
   [[nodiscard]] graph::Key variable_of_row(int row) const;
 
  private:
-  // Where the block of (keys[a], keys[b]) of a factor is summed, a >= b in matrix order.
-  struct BlockTarget {
+  // Of a pair of a factor's keys: the block that it is summed into, and which way round.
+  struct Target {
     std::size_t slot;
-    int row_offset, num_rows;        // columns of the factor's Jacobian that make the block's rows
-    int column_offset, num_columns;  // and its columns
+    bool is_transposed;
   };
-  struct FactorPlan {
-    std::vector<BlockTarget> targets;
-    std::vector<int> first_rows;  // per key, of the gradient
-  };
+  template <class F>
+  void add_terms(graph::FactorId id, const F& factor, const graph::Residual<F>& r,
+                 const graph::Jacobian<F>& J);
 
   linear::BlockMatrix blocks_;
-  std::map<graph::Key, int> index_of_;
-  std::vector<graph::Key> variables_;
-  std::vector<FactorPlan> plans_;  // by FactorId
+  graph::VariableIndex index_;
+  // Of factor id, from first_target_[id] on: the pairs (a, b) of its keys with a >= b, b ascending
+  // within a.
+  std::vector<Target> targets_;
+  std::vector<std::size_t> first_target_;
+  // Of factor id, from first_row_[id] on: the scalar row of every key.
+  std::vector<int> rows_;
+  std::vector<std::size_t> first_row_;
   Eigen::VectorXd gradient_;
-  Eigen::SparseMatrix<double> lower_;
 };
 
 }  // namespace corridor::backend

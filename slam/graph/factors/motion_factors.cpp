@@ -11,17 +11,6 @@ namespace {
 const Eigen::Matrix<double, 5, 1> kImuFloor =
     (Eigen::Matrix<double, 5, 1>() << 1e-5, 1e-4, 1e-4, 1e-5, 1e-5).finished();
 
-Eigen::VectorXd vector_value(const Values& values, Key key) {
-  switch (key.kind) {
-    case VariableKind::kVelocity:
-      return values.velocity(key.index);
-    case VariableKind::kBias:
-      return values.bias(key.index);
-    default:
-      return Eigen::VectorXd::Constant(1, values.wheel_scale(key.index));
-  }
-}
-
 // U with U^T U = covariance^-1.
 Eigen::Matrix<double, 5, 5> whitener(const Eigen::Matrix<double, 5, 5>& covariance) {
   // Ideal sensors and a single reading leave directions without noise: no measurement is that good.
@@ -41,16 +30,17 @@ struct ImuTerms {
 
 ImuTerms imu_terms(const std::array<Key, 5>& keys, const motion::ImuDelta& delta,
                    const Values& values) {
-  const Pose2& pose_i = values.pose(keys[0].index);
+  const OrientedPose& pose_i = values.oriented(keys[0].index);
   const Eigen::Vector2d& velocity_i = values.velocity(keys[1].index);
   const motion::ImuDelta d = delta.corrected(values.bias(keys[2].index));
   const Pose2& pose_j = values.pose(keys[3].index);
   ImuTerms terms;
   terms.R_i_transposed = pose_i.rotation().transpose();
   terms.velocity_change = terms.R_i_transposed * (values.velocity(keys[4].index) - velocity_i);
-  terms.displacement = terms.R_i_transposed * (pose_j.translation_m() - pose_i.translation_m() -
-                                               velocity_i * d.duration_s);
-  terms.error(0) = wrap_angle(pose_j.theta_rad() - pose_i.theta_rad() - d.theta_rad);
+  terms.displacement =
+      terms.R_i_transposed *
+      (pose_j.translation_m() - pose_i.pose.translation_m() - velocity_i * d.duration_s);
+  terms.error(0) = wrap_angle(pose_j.theta_rad() - pose_i.pose.theta_rad() - d.theta_rad);
   terms.error.segment<2>(1) = terms.velocity_change - d.velocity_mps;
   terms.error.segment<2>(3) = terms.displacement - d.position_m;
   return terms;
@@ -70,15 +60,14 @@ ImuMotion::ImuMotion(std::uint32_t i, std::uint32_t j, const motion::ImuDelta& d
       delta_(delta),
       sqrt_information_(whitener(delta.covariance)) {}
 
-void ImuMotion::residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const {
-  residual = sqrt_information_ * imu_terms(keys_, delta_, values).error;
+void ImuMotion::residual(const Values& values, FixedVector<5>& r) const {
+  r = sqrt_information_ * imu_terms(keys_, delta_, values).error;
 }
 
-void ImuMotion::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                          Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+void ImuMotion::linearize(const Values& values, FixedVector<5>& r, FixedMatrix<5, 13>& J) const {
   const ImuTerms t = imu_terms(keys_, delta_, values);
-  const Eigen::Matrix2d R_i_j = t.R_i_transposed * values.pose(keys_[3].index).rotation();
-  Eigen::Matrix<double, 5, 13> J = Eigen::Matrix<double, 5, 13>::Zero();
+  const Eigen::Matrix2d R_i_j = t.R_i_transposed * values.oriented(keys_[3].index).rotation();
+  J.setZero();
   // Columns: pose i 0-2, velocity i 3-4, bias i 5-7, pose j 8-10, velocity j 11-12.
   J(0, 2) = -1;
   J.block<2, 1>(1, 2) = -perpendicular(t.velocity_change);
@@ -92,8 +81,8 @@ void ImuMotion::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> resi
   J(0, 10) = 1;
   J.block<2, 2>(3, 8) = R_i_j;
   J.block<2, 2>(1, 11) = t.R_i_transposed;
-  residual = sqrt_information_ * t.error;
-  jacobian = sqrt_information_ * J;
+  r = sqrt_information_ * t.error;
+  J = sqrt_information_ * J;
 }
 
 WheelMotion::WheelMotion(Key pose_i, Key pose_j, Key scale, const Pose2& wheel_T_i_j,
@@ -102,16 +91,14 @@ WheelMotion::WheelMotion(Key pose_i, Key pose_j, Key scale, const Pose2& wheel_T
       wheel_T_i_j_(wheel_T_i_j),
       sqrt_information_(sqrt_information) {}
 
-void WheelMotion::residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const {
+void WheelMotion::residual(const Values& values, FixedVector<3>& r) const {
   const Pose2 T_i_j = values.pose(keys_[0].index).between(values.pose(keys_[1].index));
-  residual =
-      sqrt_information_ * wheel_error(T_i_j, wheel_T_i_j_, values.wheel_scale(keys_[2].index));
+  r = sqrt_information_ * wheel_error(T_i_j, wheel_T_i_j_, values.wheel_scale(keys_[2].index));
 }
 
-void WheelMotion::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                            Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+void WheelMotion::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 7>& J) const {
   const Pose2 T_i_j = values.pose(keys_[0].index).between(values.pose(keys_[1].index));
-  Eigen::Matrix<double, 3, 7> J = Eigen::Matrix<double, 3, 7>::Zero();
+  J.setZero();
   // Columns: pose i 0-2, pose j 3-5, scale 6.
   J.block<2, 2>(0, 0) = -Eigen::Matrix2d::Identity();
   J.block<2, 1>(0, 2) = -perpendicular(T_i_j.translation_m());
@@ -119,9 +106,8 @@ void WheelMotion::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> re
   J.block<2, 2>(0, 3) = T_i_j.rotation();
   J(2, 5) = 1;
   J.block<2, 1>(0, 6) = -wheel_T_i_j_.translation_m();
-  residual =
-      sqrt_information_ * wheel_error(T_i_j, wheel_T_i_j_, values.wheel_scale(keys_[2].index));
-  jacobian = sqrt_information_ * J;
+  r = sqrt_information_ * wheel_error(T_i_j, wheel_T_i_j_, values.wheel_scale(keys_[2].index));
+  J = sqrt_information_ * J;
 }
 
 BiasWalk::BiasWalk(std::uint32_t i, std::uint32_t j, const Eigen::Vector3d& sigma)
@@ -129,33 +115,15 @@ BiasWalk::BiasWalk(std::uint32_t i, std::uint32_t j, const Eigen::Vector3d& sigm
   CORRIDOR_EXPECT((sigma.array() > 0).all());
 }
 
-void BiasWalk::residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const {
-  residual = inverse_sigma_.cwiseProduct(values.bias(keys_[1].index) - values.bias(keys_[0].index));
+void BiasWalk::residual(const Values& values, FixedVector<3>& r) const {
+  r = inverse_sigma_.cwiseProduct(values.bias(keys_[1].index) - values.bias(keys_[0].index));
 }
 
-void BiasWalk::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                         Eigen::Ref<Eigen::MatrixXd> jacobian) const {
-  BiasWalk::residual(values, residual);
-  jacobian.setZero();
-  jacobian.leftCols<3>().diagonal() = -inverse_sigma_;
-  jacobian.rightCols<3>().diagonal() = inverse_sigma_;
-}
-
-VectorPrior::VectorPrior(Key key, const Eigen::VectorXd& prior, const Eigen::VectorXd& sigma)
-    : keys_{key}, prior_(prior), inverse_sigma_(sigma.cwiseInverse()) {
-  CORRIDOR_EXPECT(key.kind != VariableKind::kPose);
-  CORRIDOR_EXPECT(prior.rows() == key.dimension() && sigma.rows() == key.dimension());
-  CORRIDOR_EXPECT((sigma.array() > 0).all());
-}
-
-void VectorPrior::residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const {
-  residual = inverse_sigma_.cwiseProduct(vector_value(values, keys_[0]) - prior_);
-}
-
-void VectorPrior::linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                            Eigen::Ref<Eigen::MatrixXd> jacobian) const {
-  VectorPrior::residual(values, residual);
-  jacobian = inverse_sigma_.asDiagonal();
+void BiasWalk::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 6>& J) const {
+  residual(values, r);
+  J.setZero();
+  J.leftCols<3>().diagonal() = -inverse_sigma_;
+  J.rightCols<3>().diagonal() = inverse_sigma_;
 }
 
 }  // namespace corridor::graph

@@ -1,9 +1,9 @@
-// Factors of the moving robot: preintegrated IMU, wheel displacement with a scale, bias walk, and
-// priors on the plain vectors.
+// Factors of the moving robot: preintegrated IMU, wheel displacement with a scale, bias walk.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <string_view>
 
 #include "slam/core/pose2.hpp"
 #include "slam/graph/factor.hpp"
@@ -14,18 +14,21 @@ namespace corridor::graph {
 // [Forster2017] eq. 45 in the plane; keys (pose i, velocity i, bias i, pose j, velocity j).
 // e = ( wrap(theta_j - theta_i - dtheta(b)), R_i^T (v_j - v_i) - dv(b), R_i^T (p_j - p_i - v_i dt)
 // - dp(b) ), 5 rows, whitened with the delta's covariance.
-class ImuMotion final : public Factor {
+class ImuMotion {
  public:
+  static constexpr std::string_view kName = "imu_motion";
+  static constexpr int kRows = 5;
+  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kVelocity,
+                                        VariableKind::kBias, VariableKind::kPose,
+                                        VariableKind::kVelocity};
+
   // Index i and j name pose, velocity and bias of one keyframe. The delta must last longer than 0
   // s.
   ImuMotion(std::uint32_t i, std::uint32_t j, const motion::ImuDelta& delta);
 
-  [[nodiscard]] std::string_view type() const override { return "imu_motion"; }
-  [[nodiscard]] std::span<const Key> keys() const override { return keys_; }
-  [[nodiscard]] int dimension() const override { return 5; }
-  void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                 Eigen::Ref<Eigen::MatrixXd> jacobian) const override;
-  void residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const override;
+  [[nodiscard]] const std::array<Key, 5>& keys() const { return keys_; }
+  void linearize(const Values& values, FixedVector<5>& r, FixedMatrix<5, 13>& J) const;
+  void residual(const Values& values, FixedVector<5>& r) const;
 
  private:
   std::array<Key, 5> keys_;
@@ -36,17 +39,19 @@ class ImuMotion final : public Factor {
 // What the wheels say of the motion from i to j; keys (pose i, pose j, wheel scale).
 // e = ( R_i^T (t_j - t_i) - (1 + scale) d, wrap(theta_j - theta_i - dtheta) ), 3 rows, in base i.
 // A row of zeros in sqrt_information leaves its component out: the heading where a gyro is better.
-class WheelMotion final : public Factor {
+class WheelMotion {
  public:
+  static constexpr std::string_view kName = "wheel_motion";
+  static constexpr int kRows = 3;
+  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kPose,
+                                        VariableKind::kWheelScale};
+
   WheelMotion(Key pose_i, Key pose_j, Key scale, const Pose2& wheel_T_i_j,
               const Eigen::Matrix3d& sqrt_information);
 
-  [[nodiscard]] std::string_view type() const override { return "wheel_motion"; }
-  [[nodiscard]] std::span<const Key> keys() const override { return keys_; }
-  [[nodiscard]] int dimension() const override { return 3; }
-  void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                 Eigen::Ref<Eigen::MatrixXd> jacobian) const override;
-  void residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const override;
+  [[nodiscard]] const std::array<Key, 3>& keys() const { return keys_; }
+  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 7>& J) const;
+  void residual(const Values& values, FixedVector<3>& r) const;
 
  private:
   std::array<Key, 3> keys_;
@@ -55,40 +60,22 @@ class WheelMotion final : public Factor {
 };
 
 // e = (b_j - b_i) / sigma, component by component; keys (bias i, bias j).
-class BiasWalk final : public Factor {
+class BiasWalk {
  public:
+  static constexpr std::string_view kName = "bias_walk";
+  static constexpr int kRows = 3;
+  static constexpr std::array kKinds = {VariableKind::kBias, VariableKind::kBias};
+
   // sigma: standard deviation of the change, (rad/s, m/s^2, m/s^2), each > 0.
   BiasWalk(std::uint32_t i, std::uint32_t j, const Eigen::Vector3d& sigma);
 
-  [[nodiscard]] std::string_view type() const override { return "bias_walk"; }
-  [[nodiscard]] std::span<const Key> keys() const override { return keys_; }
-  [[nodiscard]] int dimension() const override { return 3; }
-  void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                 Eigen::Ref<Eigen::MatrixXd> jacobian) const override;
-  void residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const override;
+  [[nodiscard]] const std::array<Key, 2>& keys() const { return keys_; }
+  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 6>& J) const;
+  void residual(const Values& values, FixedVector<3>& r) const;
 
  private:
   std::array<Key, 2> keys_;
   Eigen::Vector3d inverse_sigma_;
-};
-
-// e = (x - prior) / sigma for a velocity, bias or wheel scale.
-class VectorPrior final : public Factor {
- public:
-  // prior and sigma have key.dimension() rows; sigma > 0.
-  VectorPrior(Key key, const Eigen::VectorXd& prior, const Eigen::VectorXd& sigma);
-
-  [[nodiscard]] std::string_view type() const override { return "vector_prior"; }
-  [[nodiscard]] std::span<const Key> keys() const override { return keys_; }
-  [[nodiscard]] int dimension() const override { return keys_[0].dimension(); }
-  void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                 Eigen::Ref<Eigen::MatrixXd> jacobian) const override;
-  void residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const override;
-
- private:
-  std::array<Key, 1> keys_;
-  Eigen::VectorXd prior_;
-  Eigen::VectorXd inverse_sigma_;
 };
 
 }  // namespace corridor::graph

@@ -2,12 +2,13 @@
 // Error of a relative pose [Konolige2010] eq. 2, with the group's logarithm instead of the
 // component difference: e = Log(z^-1 * (T_map_i^-1 * T_map_j)) = Log(Z_j_j'), in the frame of the
 // measured j. RelativePoseError::kComponents gives the form of g2o instead: e = (R_z^T (R_i^T (t_j
-// - t_i) - z_t), wrap(theta_j - theta_i - theta_z)); both agree to first order and are zero at the
+// - t_i) - t_z), wrap(theta_j - theta_i - theta_z)); both agree to first order and are zero at the
 // same poses.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <string_view>
 
 #include "slam/graph/factor.hpp"
 
@@ -19,17 +20,18 @@ namespace corridor::graph {
 Eigen::Matrix3d square_root_information(const Eigen::Matrix3d& information);
 
 // e = Log(prior^-1 * T_map_base), tangent order (x_m, y_m, theta_rad).
-class PosePrior final : public Factor {
+class PosePrior {
  public:
+  static constexpr std::string_view kName = "pose_prior";
+  static constexpr int kRows = 3;
+  static constexpr std::array kKinds = {VariableKind::kPose};
+
   // sqrt_information: 3x3 U with U^T U = information in base.
   PosePrior(Key pose, const Pose2& prior_T_map_base, const Eigen::Matrix3d& sqrt_information);
 
-  [[nodiscard]] std::string_view type() const override { return "pose_prior"; }
-  [[nodiscard]] std::span<const Key> keys() const override { return keys_; }
-  [[nodiscard]] int dimension() const override { return 3; }
-  void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                 Eigen::Ref<Eigen::MatrixXd> jacobian) const override;
-  void residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const override;
+  [[nodiscard]] const std::array<Key, 1>& keys() const { return keys_; }
+  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 3>& J) const;
+  void residual(const Values& values, FixedVector<3>& r) const;
 
  private:
   std::array<Key, 1> keys_;
@@ -39,30 +41,29 @@ class PosePrior final : public Factor {
 
 enum class RelativePoseError { kLogarithm, kComponents };
 
-class RelativePose final : public Factor {
+class RelativePose {
  public:
+  static constexpr std::string_view kName = "relative_pose";
+  static constexpr int kRows = 3;
+  static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kPose};
+
   // T_i_j measured; sqrt_information 3x3 in the frame of j (kLogarithm) or as g2o's Omega
   // (kComponents).
   RelativePose(Key pose_i, Key pose_j, const Pose2& T_i_j, const Eigen::Matrix3d& sqrt_information,
                RelativePoseError error = RelativePoseError::kLogarithm);
 
-  [[nodiscard]] std::string_view type() const override { return "relative_pose"; }
-  [[nodiscard]] std::span<const Key> keys() const override { return keys_; }
-  [[nodiscard]] int dimension() const override { return 3; }
-  void linearize(const Values& values, Eigen::Ref<Eigen::VectorXd> residual,
-                 Eigen::Ref<Eigen::MatrixXd> jacobian) const override;
-  void residual(const Values& values, Eigen::Ref<Eigen::VectorXd> residual) const override;
+  [[nodiscard]] const std::array<Key, 2>& keys() const { return keys_; }
+  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 6>& J) const;
+  void residual(const Values& values, FixedVector<3>& r) const;
 
-  [[nodiscard]] const Pose2& measured_T_i_j() const { return T_i_j_; }
+  [[nodiscard]] const Pose2& measured_T_i_j() const { return measured_.pose; }
   [[nodiscard]] Eigen::Matrix3d information() const {
     return sqrt_information_.transpose() * sqrt_information_;
   }
 
  private:
-  [[nodiscard]] Eigen::Vector3d error(const Values& values) const;
-
   std::array<Key, 2> keys_;
-  Pose2 T_i_j_;
+  OrientedPose measured_;
   Eigen::Matrix3d sqrt_information_;
   RelativePoseError error_;
 };

@@ -35,6 +35,18 @@ TEST(Systems, AreMadeWithEveryBackEndIfTheyTakeOne) {
   }
 }
 
+TEST(BackEnds, AnswerToTheirNameAndHaveParametersWithMeanings) {
+  for (const BackEndInfo& info : back_ends()) {
+    const auto made = make_back_end(info.name, {});
+    ASSERT_TRUE(made.has_value()) << info.name;
+    EXPECT_EQ((*made)->name(), info.name.substr(0, info.name.find('@')));
+    EXPECT_FALSE(info.parameters.empty()) << info.name;
+    for (const ParamRow& row : info.parameters) {
+      EXPECT_FALSE(row.meaning.empty()) << info.name << "." << row.name;
+    }
+  }
+}
+
 TEST(Systems, HaveNamesOfTheirOwnAndParametersWithMeanings) {
   std::set<std::string> names;
   for (const SystemInfo& info : systems()) {

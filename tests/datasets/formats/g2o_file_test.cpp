@@ -12,9 +12,9 @@ using graph::pose_key;
 using test::read_text;
 using test::ScratchFolder;
 
-graph::FactorPtr edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
+graph::NewFactor edge(std::uint32_t i, std::uint32_t j, const Pose2& T_i_j) {
   const Eigen::Matrix3d root = Eigen::Vector3d(2, 3, 4).asDiagonal();
-  return std::make_unique<graph::RelativePose>(pose_key(i), pose_key(j), T_i_j, root);
+  return graph::RelativePose(pose_key(i), pose_key(j), T_i_j, root);
 }
 
 TEST(G2oFile, HoldsPosesAndRelativePosesInG2osOrder) {
@@ -40,7 +40,7 @@ TEST(G2oFile, FixesThePosesThatHaveAPrior) {
   values.set_pose(3, Pose2());
   graph::FactorGraph factors;
   factors.add(
-      std::make_unique<graph::PosePrior>(pose_key(3), Pose2(), Eigen::Matrix3d::Identity()));
+      graph::PosePrior(pose_key(3), Pose2(), Eigen::Matrix3d::Identity()));
   const ScratchFolder folder;
   ASSERT_TRUE(write_g2o(factors, values, folder / "g.g2o"));
   const std::string text = read_text(folder / "g.g2o");

@@ -34,11 +34,11 @@ Interval healthy() {
 
 struct Chosen {
   IntervalVerdict verdict;
-  std::vector<graph::FactorPtr> factors;
+  std::vector<graph::NewFactor> factors;
 
   [[nodiscard]] long count(std::string_view type) const {
     return std::count_if(factors.begin(), factors.end(),
-                         [&](const graph::FactorPtr& f) { return f->type() == type; });
+                         [&](const graph::NewFactor& f) { return name_of(f.factor) == type; });
   }
 };
 
@@ -114,9 +114,9 @@ TEST(Fusion, TakesFromTheLidarOnlyTheDirectionsItSees) {
   graph::Values values;
   values.set_pose(0, {});
   values.set_pose(1, {0.2, 0, 0});
-  for (const graph::FactorPtr& factor : chosen.factors) {
-    if (factor->type() == "relative_pose") {
-      EXPECT_NEAR(factor->chi2(values), 0, 1e-12);
+  for (const graph::NewFactor& chosen_factor : chosen.factors) {
+    if (name_of(chosen_factor.factor) == "relative_pose") {
+      EXPECT_NEAR(chi2_of(chosen_factor.factor, values), 0, 1e-12);
     }
   }
 }
@@ -157,9 +157,9 @@ TEST(Fusion, AfterAGapOfTheImuTheWheelsHeadingCounts) {
   values.set_pose(1, {0.2, 0, 0.5});
   values.set_wheel_scale(0, 0);
   const Chosen chosen = choose(interval, {});
-  for (const graph::FactorPtr& factor : chosen.factors) {
-    if (factor->type() == "wheel_motion") {
-      EXPECT_GT(factor->chi2(values), 10);
+  for (const graph::NewFactor& chosen_factor : chosen.factors) {
+    if (name_of(chosen_factor.factor) == "wheel_motion") {
+      EXPECT_GT(chi2_of(chosen_factor.factor, values), 10);
     }
   }
   EXPECT_EQ(chosen.count("wheel_motion"), 1);

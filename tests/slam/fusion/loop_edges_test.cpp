@@ -14,15 +14,14 @@ constexpr double kGate = 30;
 class LoopEdgesTest : public ::testing::Test {
  protected:
   LoopEdgesTest() {
-    std::vector<graph::FactorPtr> factors;
+    std::vector<graph::NewFactor> factors;
     graph::Values values;
-    factors.push_back(std::make_unique<graph::PosePrior>(graph::pose_key(0), Pose2(),
-                                                         Eigen::Matrix3d::Identity() / 1e-4));
+    factors.push_back(
+        graph::PosePrior(graph::pose_key(0), Pose2(), Eigen::Matrix3d::Identity() / 1e-4));
     values.set_pose(0, Pose2());
     for (std::uint32_t k = 1; k <= 10; ++k) {
-      factors.push_back(std::make_unique<graph::RelativePose>(graph::pose_key(k - 1),
-                                                              graph::pose_key(k), Pose2(1, 0, 0),
-                                                              Eigen::Matrix3d::Identity() / 0.05));
+      factors.push_back(graph::RelativePose(graph::pose_key(k - 1), graph::pose_key(k),
+                                            Pose2(1, 0, 0), Eigen::Matrix3d::Identity() / 0.05));
       values.set_pose(k, Pose2(k, 0, 0));
     }
     (void)back_end_->update(std::move(factors), values, {});

@@ -1,6 +1,12 @@
 #include "slam/graph/values.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "slam/core/rng.hpp"
 
 namespace corridor::graph {
 namespace {
@@ -24,6 +30,45 @@ TEST(Values, AGapBetweenIndicesIsNotAVariable) {
   EXPECT_TRUE(values.contains(pose_key(5)));
 }
 
+RC_GTEST_PROP(Values, AreTheSameInWhateverOrderTheyAreSet, (std::uint64_t seed)) {
+  Rng rng(seed);
+  std::map<std::uint32_t, double> expected;
+  Values values;
+  for (int k = 0; k < 30; ++k) {
+    const auto index = static_cast<std::uint32_t>(500 + rng.below(60) - rng.below(500));
+    expected[index] = rng.normal();
+    values.set_wheel_scale(index, expected[index]);
+  }
+  RC_ASSERT(values.size() == expected.size());
+  std::vector<Key> keys;
+  for (const auto& [index, value] : expected) {
+    keys.push_back(wheel_scale_key(index));
+    RC_ASSERT(values.wheel_scale(index) == value);
+  }
+  RC_ASSERT(values.keys() == keys);
+  Values merged;
+  merged.set_wheel_scale(0, 0);
+  merged.merge(values);
+  for (const auto& [index, value] : expected) RC_ASSERT(merged.wheel_scale(index) == value);
+}
+
+TEST(Values, RetractOfManyIsThatOfEachWithItsPart) {
+  Values values;
+  values.set_pose(3, {1, 2, 0.5});
+  values.set_velocity(1, {1, 1});
+  values.set_pose(7, {4, 5, -0.5});
+  Values one_by_one = values;
+  const std::vector<Key> keys = {pose_key(7), velocity_key(1), pose_key(3)};
+  const std::vector<double> deltas = {1, 2, 3, 4, 5, 6, 7, 8};
+  values.retract(keys, deltas.data());
+  one_by_one.retract(keys[0], &deltas[0]);
+  one_by_one.retract(keys[1], &deltas[3]);
+  one_by_one.retract(keys[2], &deltas[5]);
+  EXPECT_EQ(values.pose(3), one_by_one.pose(3));
+  EXPECT_EQ(values.pose(7), one_by_one.pose(7));
+  EXPECT_EQ(values.velocity(1), one_by_one.velocity(1));
+}
+
 TEST(Values, SettingAgainReplaces) {
   Values values;
   values.set_velocity(0, {1, 2});
@@ -35,17 +80,30 @@ TEST(Values, SettingAgainReplaces) {
 TEST(Values, RetractMovesAPoseInItsOwnFrame) {
   Values values;
   values.set_pose(0, {1, 1, 1.5707963267948966});
-  values.retract(pose_key(0), Eigen::Vector3d(1, 0, 0));
+  const Eigen::Vector3d delta(1, 0, 0);
+  values.retract(pose_key(0), delta.data());
   EXPECT_NEAR(values.pose(0).x_m(), 1, 1e-12);
   EXPECT_NEAR(values.pose(0).y_m(), 2, 1e-12);
+}
+
+RC_GTEST_PROP(Values, AnOrientedPoseTurnsAsItsPose, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const OrientedPose pose(Pose2(rng.normal(), rng.normal(), rng.uniform(-3, 3)));
+  const Eigen::Vector2d v(rng.normal(), rng.normal());
+  const Pose2::Tangent tau(rng.normal(), rng.normal(), rng.normal());
+  RC_ASSERT((pose.turn(v) - pose.pose.rotation() * v).norm() < 1e-14 * (1 + v.norm()));
+  RC_ASSERT((pose.turn_back(pose.turn(v)) - v).norm() < 1e-14 * (1 + v.norm()));
+  RC_ASSERT(pose.plus(tau).pose.minus(pose.pose.plus(tau)).norm() < 1e-13 * (1 + tau.norm()));
 }
 
 TEST(Values, RetractAddsToVectors) {
   Values values;
   values.set_bias(0, {1, 2, 3});
   values.set_wheel_scale(0, 0.5);
-  values.retract(bias_key(0), Eigen::Vector3d(1, 1, 1));
-  values.retract(wheel_scale_key(0), Eigen::VectorXd::Constant(1, 0.25));
+  const Eigen::Vector3d ones(1, 1, 1);
+  values.retract(bias_key(0), ones.data());
+  const double quarter = 0.25;
+  values.retract(wheel_scale_key(0), &quarter);
   EXPECT_EQ(values.bias(0), Eigen::Vector3d(2, 3, 4));
   EXPECT_EQ(values.wheel_scale(0), 0.75);
 }

@@ -1,0 +1,29 @@
+// corridor-bench solve: one pose graph with one back-end, at once or pose by pose.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/cli/command.hpp"
+
+namespace corridor::cli {
+
+struct SolveCommand {
+  CommonOptions common;
+  std::string graph;
+  std::string back_end;
+  std::string mode = "batch";
+  std::string robust = "none";
+  // Empty: not asked for.
+  std::optional<std::string> linear;
+  std::optional<std::string> init;
+  std::optional<double> width;
+  std::optional<int> every;
+  std::string out;
+  bool is_json = false;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] Result<ExitCode> run() const;
+};
+
+}  // namespace corridor::cli

@@ -1,0 +1,115 @@
+// iSAM2 on a Manhattan-like walk: every update of the way with the newest pose read after it, a
+// full relinearisation, reading poses, and what linearising a factor costs.
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bench/micro/manhattan_walk.hpp"
+#include "slam/backend/isam2/isam2.hpp"
+#include "slam/graph/factor_graph.hpp"
+
+namespace corridor::backend {
+namespace {
+
+constexpr std::uint32_t kNumPoses = 3500;
+constexpr double kPositionSigma_m = 0.05;
+constexpr double kAngleSigma_rad = 0.02;
+
+// The factors that arrive with every pose; those of pose 0 hold the gauge.
+std::vector<std::vector<graph::NewFactor>> factors_of_a_walk() {
+  Rng rng(1);
+  const micro::ManhattanWalk walk = micro::walk_manhattan(rng, kNumPoses);
+  const Eigen::Matrix3d weight =
+      Eigen::Vector3d(1 / kPositionSigma_m, 1 / kPositionSigma_m, 1 / kAngleSigma_rad).asDiagonal();
+  std::vector<std::vector<graph::NewFactor>> factors(kNumPoses);
+  factors[0].push_back(graph::PosePrior(graph::pose_key(0), walk.true_poses[0], 1e3 * weight));
+  for (const auto& [i, j] : walk.edges) {
+    const Pose2 measured =
+        walk.true_poses[i]
+            .between(walk.true_poses[j])
+            .plus({rng.normal(0, kPositionSigma_m), rng.normal(0, kPositionSigma_m),
+                   rng.normal(0, kAngleSigma_rad)});
+    factors[j].push_back(graph::RelativePose(graph::pose_key(i), graph::pose_key(j), measured,
+                                             weight, graph::RelativePoseError::kComponents));
+  }
+  return factors;
+}
+
+Pose2 along_odometry(const graph::NewFactor& odometry, const Pose2& T_map_base) {
+  return T_map_base * std::get<graph::RelativePose>(odometry.factor).measured_T_i_j();
+}
+
+struct Totals {
+  std::int64_t num_eliminated = 0, num_relinearized = 0;
+};
+
+std::unique_ptr<BackEnd> walk_along(const std::vector<std::vector<graph::NewFactor>>& factors,
+                                    Totals& totals) {
+  std::unique_ptr<BackEnd> solver = make_isam2({});
+  Pose2 newest;
+  for (std::uint32_t pose = 0; pose < kNumPoses; ++pose) {
+    if (pose > 0) newest = along_odometry(factors[pose].front(), newest);
+    graph::Values values;
+    values.set_pose(pose, newest);
+    const BackEndReport report = solver->update(factors[pose], values, {});
+    totals.num_eliminated += report.num_eliminated;
+    totals.num_relinearized += report.num_relinearized;
+    newest = solver->pose(pose);
+  }
+  return solver;
+}
+
+void update_all(benchmark::State& state) {
+  const auto factors = factors_of_a_walk();
+  Totals totals;
+  for (auto _ : state) {
+    totals = {};
+    benchmark::DoNotOptimize(walk_along(factors, totals));
+  }
+  state.counters["updates"] = kNumPoses;
+  state.counters["eliminated_per_update"] = static_cast<double>(totals.num_eliminated) / kNumPoses;
+  state.counters["relinearized_per_update"] =
+      static_cast<double>(totals.num_relinearized) / kNumPoses;
+}
+BENCHMARK(update_all)->Name("backend/isam2/update_all")->Unit(benchmark::kMillisecond);
+
+void relinearize_all(benchmark::State& state) {
+  Totals totals;
+  const std::unique_ptr<BackEnd> solver = walk_along(factors_of_a_walk(), totals);
+  int num_iterations = 0;
+  for (auto _ : state) num_iterations += solver->solve().num_iterations;
+  state.counters["iterations"] =
+      benchmark::Counter(num_iterations, benchmark::Counter::kAvgIterations);
+}
+BENCHMARK(relinearize_all)->Name("backend/isam2/solve")->Unit(benchmark::kMillisecond);
+
+// The newest pose costs the way from the root, the whole estimate a pass over the tree.
+void read_pose(benchmark::State& state) {
+  Totals totals;
+  const std::unique_ptr<BackEnd> solver = walk_along(factors_of_a_walk(), totals);
+  const auto pose = static_cast<std::uint32_t>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(solver->pose(pose));
+}
+BENCHMARK(read_pose)->Name("backend/isam2/read_pose")->Arg(kNumPoses - 1)->Arg(0);
+
+void linearize(benchmark::State& state) {
+  Totals totals;
+  const std::unique_ptr<BackEnd> solver = walk_along(factors_of_a_walk(), totals);
+  const graph::FactorGraph& graph = solver->graph();
+  const graph::Values& values = solver->estimate();
+  for (auto _ : state) {
+    graph.for_each([&]<class F>(graph::FactorId, const F& factor, const graph::RobustKernel&) {
+      graph::Residual<F> r;
+      graph::Jacobian<F> J;
+      factor.linearize(values, r, J);
+      benchmark::DoNotOptimize(J);
+    });
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(graph.num_factors()));
+}
+BENCHMARK(linearize)->Name("graph/linearize")->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace corridor::backend

@@ -1,0 +1,385 @@
+#include "slam/backend/isam2/isam2.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "slam/backend/isam2/bayes_tree.hpp"
+#include "slam/backend/isam2/linear_terms.hpp"
+#include "slam/backend/isam2/marginalization.hpp"
+#include "slam/core/expect.hpp"
+#include "slam/graph/slot_range.hpp"
+#include "slam/graph/variable_index.hpp"
+
+namespace corridor::backend {
+using linear::to_index;
+
+namespace {
+
+using graph::FactorId;
+using graph::Key;
+using graph::NewFactor;
+using graph::Values;
+using State = VariableInformation::State;
+
+class Isam2 final : public BackEnd {
+ public:
+  explicit Isam2(const Isam2Params& params)
+      : params_(params),
+        squared_threshold_{square(params.relinearize_pose), square(params.relinearize_velocity),
+                           square(params.relinearize_bias),
+                           square(params.relinearize_wheel_scale)} {}
+
+  std::string_view name() const override { return "isam2"; }
+
+  std::vector<FactorId> add(std::vector<NewFactor> new_factors, const Values& new_values) override {
+    for (const Key key : new_values.keys()) add_variable(key);
+    linearization_.merge(new_values);
+    std::vector<FactorId> ids;
+    for (NewFactor& factor : new_factors) ids.push_back(add_factor(std::move(factor)));
+    is_estimate_current_ = false;
+    return ids;
+  }
+
+  BackEndReport update(std::vector<NewFactor> new_factors, const Values& new_values,
+                       std::span<const FactorId> removed_factors) override {
+    for (const FactorId id : removed_factors) remove_factor(id);
+    BackEndReport report;
+    report.new_factor_ids = add(std::move(new_factors), new_values);
+    report.chi2_initial = std::numeric_limits<double>::quiet_NaN();
+    if (graph_.num_factors() == 0) return finished(report);
+    do {
+      relinearize(report);
+      if (!eliminate(report)) return finished(report);
+      tree_.solve_changed(params_.wildfire);
+      mark_far_steps();
+      ++report.num_iterations;
+    } while (report.num_iterations < params_.max_rounds &&
+             largest_step_ > square(params_.repeat_step));
+    report.status = marked_.empty() ? SolveStatus::kConverged : SolveStatus::kMaxIterations;
+    report.chi2 = tree_.chi2();
+    return finished(report);
+  }
+
+  BackEndReport solve() override {
+    BackEndReport report;
+    if (graph_.num_factors() == 0) return finished(report);
+    const Values before_all = estimate();
+    report.chi2 = report.chi2_initial = graph_.cost(before_all);
+    report.status = SolveStatus::kMaxIterations;
+    while (report.num_iterations < params_.max_iterations) {
+      for (const Key key : linearization_.keys()) mark(index_.of(key));
+      relinearize(report);
+      if (!eliminate(report)) break;
+      is_estimate_current_ = false;
+      ++report.num_iterations;
+      const double before = std::exchange(report.chi2, graph_.cost(estimate()));
+      if (!std::isfinite(report.chi2)) {
+        report.status = SolveStatus::kNotFinite;
+        set_values(before_all);
+        break;
+      }
+      if (std::abs(before - report.chi2) <= params_.min_relative_decrease * report.chi2) {
+        report.status = SolveStatus::kConverged;
+        break;
+      }
+    }
+    return finished(report);
+  }
+
+  void set_values(const Values& values) override {
+    if (!tree_.has_unsettled()) tree_.solve_all();
+    for (const Key key : values.keys()) move_to_another_point(index_.of(key));
+    linearization_.merge(values);
+    is_estimate_current_ = false;
+  }
+
+  Result<void> marginalize(std::span<const Key> keys) override {
+    std::set<FactorId> held;
+    for (const Key key : keys) {
+      if (!index_.contains(key)) {
+        return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key), "marginalisation");
+      }
+      const auto& ids = factors_of_[to_index(index_.of(key))];
+      held.insert(ids.begin(), ids.end());
+    }
+    const std::vector<FactorId> removed(held.begin(), held.end());
+    const auto prior = marginal_prior(graph_, estimate(), removed, keys);
+    if (!prior) return tl::make_unexpected(prior.error());
+    for (const Key key : keys) tree_.touch_everywhere(index_.of(key));
+    for (const FactorId id : removed) remove_factor(id);
+    tree_.detach();
+    for (const Key key : keys) forget(key);
+    tree_.postpone();
+    if (*prior) add_factor(**prior);
+    return {};
+  }
+
+  const Values& estimate() const override {
+    if (!is_estimate_current_) {
+      if (!tree_.has_unsettled()) tree_.solve_all();
+      estimate_ = linearization_;
+      for (const Key key : linearization_.keys()) {
+        estimate_.retract(key, tree_.delta(index_.of(key)));
+      }
+      is_estimate_current_ = true;
+    }
+    return estimate_;
+  }
+
+  Pose2 pose(std::uint32_t index) override {
+    const int variable = index_.of(graph::pose_key(index));
+    if (tree_.clique_of(variable) != BayesTree::kNone && !tree_.has_unsettled()) {
+      tree_.solve_path(variable);
+    }
+    const double* const delta = tree_.delta(variable);
+    return linearization_.pose(index).plus({delta[0], delta[1], delta[2]});
+  }
+
+  const graph::FactorGraph& graph() const override { return graph_; }
+
+  Result<Eigen::MatrixXd> marginal_covariance(Key key) override {
+    if (!index_.contains(key)) {
+      return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key),
+                  "marginal covariance");
+    }
+    BackEndReport report;
+    if (!eliminate(report)) {
+      return fail(ErrorCode::kInvalid,
+                  "the normal equations are singular at " + graph::to_text(*report.undetermined),
+                  "marginal covariance", "a prior and factors that determine every variable");
+    }
+    return tree_.covariance(index_.of(key));
+  }
+
+ private:
+  static double square(double x) { return x * x; }
+
+  void add_variable(Key key) {
+    if (index_.contains(key)) {
+      move_to_another_point(index_.of(key));
+      return;
+    }
+    const int variable = tree_.add_variable(key.dimension());
+    index_.add(key, variable);
+    if (to_index(variable) >= factors_of_.size()) {
+      factors_of_.resize(to_index(variable) + 1);
+      information_.resize(to_index(variable) + 1);
+      is_marked_.resize(to_index(variable) + 1, false);
+      birth_of_.resize(to_index(variable) + 1);
+    }
+    forget_information_of(variable);
+    birth_of_[to_index(variable)] = num_births_++;
+  }
+
+  FactorId add_factor(NewFactor factor) {
+    variables_.clear();
+    for (const Key key : keys_of(factor.factor)) {
+      CORRIDOR_EXPECT(index_.contains(key));
+      variables_.push_back(index_.of(key));
+    }
+    has_kernels_ = has_kernels_ || factor.kernel.kind != graph::KernelKind::kNone;
+    const FactorId id = graph_.add(std::move(factor));
+    variables_of_.set(id, variables_);
+    for (const int variable : variables_) {
+      factors_of_[to_index(variable)].push_back(id);
+      tree_.touch(variable);
+      forget_information_of(variable);
+    }
+    return id;
+  }
+
+  void forget(Key key) {
+    const int variable = index_.of(key);
+    if (is_marked_[to_index(variable)]) std::erase(marked_, variable);
+    is_marked_[to_index(variable)] = false;
+    tree_.forget(variable);
+    index_.remove(key);
+    linearization_.erase(key);
+    estimate_.erase(key);
+  }
+
+  void remove_factor(FactorId id) {
+    graph_.remove(id);
+    for (const int variable : variables_of_[id]) {
+      std::erase(factors_of_[to_index(variable)], id);
+      tree_.touch(variable);
+      forget_information_of(variable);
+    }
+    variables_of_.erase(id);
+    is_estimate_current_ = false;
+  }
+
+  void mark(int variable) {
+    if (is_marked_[to_index(variable)]) return;
+    is_marked_[to_index(variable)] = true;
+    marked_.push_back(variable);
+  }
+
+  // Moves the linearisation point of every marked variable to its estimate.
+  void relinearize(BackEndReport& report) {
+    for (const int variable : marked_) {
+      is_marked_[to_index(variable)] = false;
+      linearization_.retract(index_.keys()[to_index(variable)], tree_.delta(variable));
+      move_to_another_point(variable);
+      // All its factors are linearised now.
+      information_[to_index(variable)] = {Eigen::Matrix3d::Zero(), State::kBeingSummed};
+    }
+    report.num_relinearized += static_cast<std::int64_t>(marked_.size());
+    being_summed_.swap(marked_);
+    marked_.clear();
+  }
+
+  void move_to_another_point(int variable) {
+    tree_.clear_delta(variable);
+    tree_.unsettle(variable);
+    forget_information_of(variable);
+    // Its neighbours' information changes little, unless a kernel weighs a factor differently.
+    if (!has_kernels_) return;
+    for (const FactorId id : factors_of_[to_index(variable)]) {
+      if (graph_.kernel(id).kind == graph::KernelKind::kNone) continue;
+      for (const int other : variables_of_[id]) forget_information_of(other);
+    }
+  }
+
+  void forget_information_of(int variable) {
+    State& state = information_[to_index(variable)].state;
+    if (state == State::kKnown) state = State::kUnknown;
+  }
+
+  void end_sums(State state) {
+    for (const int variable : being_summed_) information_[to_index(variable)].state = state;
+    being_summed_.clear();
+  }
+
+  // The factors whose variables are all eliminated anew: those that the cliques taken out held.
+  void collect_factors() {
+    collected_.clear();
+    sets_.clear();
+    for (const int variable : tree_.detached()) {
+      for (const FactorId id : factors_of_[to_index(variable)]) {
+        const std::vector<int>& variables = variables_of_[id];
+        // Once only: when its variable of the lowest number comes.
+        if (*std::min_element(variables.begin(), variables.end()) != variable) continue;
+        const bool is_whole = std::all_of(variables.begin(), variables.end(), [&](int v) {
+          return tree_.clique_of(v) == BayesTree::kNone;
+        });
+        if (!is_whole) continue;
+        collected_.push_back(id);
+        sets_.add(variables);
+      }
+    }
+  }
+
+  // Of the variables that are eliminated, those that came last.
+  std::span<const int> newest() {
+    const std::span<const int> detached = tree_.detached();
+    newest_.assign(detached.begin(), detached.end());
+    const std::size_t num_last = std::min(newest_.size(), to_index(params_.num_last));
+    std::nth_element(newest_.begin(), newest_.end() - static_cast<std::ptrdiff_t>(num_last),
+                     newest_.end(),
+                     [&](int a, int b) { return birth_of_[to_index(a)] < birth_of_[to_index(b)]; });
+    return std::span(newest_).last(num_last);
+  }
+
+  // False: rank deficient; the report says where.
+  bool eliminate(BackEndReport& report) {
+    bool is_good = eliminate_each(tree_.unsettled(), report);
+    if (is_good) {
+      tree_.detach();
+      if (!tree_.detached().empty()) {
+        collect_factors();
+        tree_.attach(sets_, collected_, newest());
+        is_good = eliminate_each(tree_.new_cliques(), report);
+      }
+    }
+    end_sums(is_good ? State::kKnown : State::kUnknown);
+    return is_good;
+  }
+
+  bool eliminate_each(std::span<const int> cliques, BackEndReport& report) {
+    for (const int number : cliques) {
+      Front& front = tree_.open(number);
+      const BayesTree::Clique& clique = tree_.clique(number);
+      report.num_eliminated += clique.num_frontals;
+      for (const FactorId id : clique.factors) {
+        add_linearized(graph_, id, linearization_, variables_of_[id], tree_, front, information_);
+      }
+      if (tree_.close()) continue;
+      report.status = SolveStatus::kRankDeficient;
+      report.undetermined = index_.keys()[to_index(tree_.first_bad_variable())];
+      return false;
+    }
+    return true;
+  }
+
+  // Marks the variables whose new step is too long for their linearisation.
+  void mark_far_steps() {
+    largest_step_ = 0;
+    for (const int variable : tree_.changed()) {
+      const double step = squared_step(variable);
+      largest_step_ = std::max(largest_step_, step);
+      const auto kind = static_cast<std::size_t>(index_.keys()[to_index(variable)].kind);
+      if (step > squared_threshold_[kind]) mark(variable);
+    }
+    tree_.forget_changes();
+  }
+
+  // delta^T H_vv delta.
+  double squared_step(int variable) {
+    VariableInformation& known = information_[to_index(variable)];
+    const int dimension = tree_.dimension(variable);
+    if (known.state == State::kUnknown) {
+      known.H.setZero();
+      for (const FactorId id : factors_of_[to_index(variable)]) {
+        add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], known.H);
+      }
+      known.state = State::kKnown;
+    }
+    const Eigen::Map<const Eigen::VectorXd> delta(tree_.delta(variable), dimension);
+    return delta.dot(known.H.topLeftCorner(dimension, dimension) * delta);
+  }
+
+  BackEndReport finished(BackEndReport& report) {
+    report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
+    report.num_variables = static_cast<std::int64_t>(linearization_.size());
+    is_estimate_current_ = false;
+    return std::move(report);
+  }
+
+  Isam2Params params_;
+  std::array<double, graph::kNumVariableKinds> squared_threshold_;
+  graph::FactorGraph graph_;
+  Values linearization_;
+  graph::VariableIndex index_;
+  mutable BayesTree tree_;  // reading solves what no one has asked for yet
+  mutable Values estimate_;
+  mutable bool is_estimate_current_ = true;
+  bool has_kernels_ = false;  // any factor so far
+  // By variable.
+  std::vector<std::vector<FactorId>> factors_of_;
+  std::vector<VariableInformation> information_;
+  std::vector<bool> is_marked_;
+  std::vector<std::int64_t> birth_of_;  // when it came, counted in variables
+  std::int64_t num_births_ = 0;
+  std::vector<int> marked_, being_summed_;
+  double largest_step_ = 0;
+  // By factor.
+  graph::SlotRange<std::vector<int>> variables_of_;
+  // Of the update under way.
+  std::vector<FactorId> collected_;
+  VariableSets sets_;
+  std::vector<int> variables_, newest_;
+};
+
+}  // namespace
+
+std::unique_ptr<BackEnd> make_isam2(const Isam2Params& params) {
+  return std::make_unique<Isam2>(params);
+}
+
+}  // namespace corridor::backend

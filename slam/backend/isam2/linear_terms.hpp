@@ -1,0 +1,33 @@
+// Factors as terms of a quadratic function: what they add to a front and to a variable's
+// information.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "slam/backend/isam2/bayes_tree.hpp"
+#include "slam/graph/factor_graph.hpp"
+
+namespace corridor::backend {
+
+// H_vv = sum of J_v^T J_v of a variable's factors, in the top left block of its dimension.
+struct VariableInformation {
+  enum class State { kUnknown, kKnown, kBeingSummed };
+
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  State state = State::kUnknown;
+};
+
+// Linearises a factor and adds J^T J, J^T r and r^T r to the open front of the tree, and J_v^T J_v
+// to the information of those of its variables for which it is being summed. variables: numbers of
+// the factor's variables in the tree. information: by number.
+void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
+                    const graph::Values& values, std::span<const int> variables,
+                    const BayesTree& tree, Front& front,
+                    std::span<VariableInformation> information);
+
+// Linearises a factor and adds its J_v^T J_v of one variable.
+void add_information(const graph::FactorGraph& graph, graph::FactorId id,
+                     const graph::Values& values, graph::Key variable, Eigen::Matrix3d& H);
+
+}  // namespace corridor::backend

@@ -1,0 +1,20 @@
+// The linear solvers by name, for whoever takes one as a parameter.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "slam/linear/linear_solver.hpp"
+
+namespace corridor::linear {
+
+enum class LinearSolverKind {
+  kCholmod,  // SparseCholesky
+  kBlock,    // BlockCholesky
+};
+// As LinearSolver::name().
+std::string to_text(LinearSolverKind kind);
+
+std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);
+
+}  // namespace corridor::linear

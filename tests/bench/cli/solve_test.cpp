@@ -1,0 +1,126 @@
+// The command `solve`: what it answers, in which words, and what it refuses.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/cli/program.hpp"
+
+namespace corridor::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+// A triangle whose third edge does not quite fit.
+constexpr const char* kTriangle =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 1 1 0\n"
+    "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 0 1 0 1 0 0 1 0 1\n"
+    "EDGE_SE2 0 2 1.3 1 0 1 0 0 1 0 1\n";
+
+TEST(Solve, AnswersWithTheKeysThatScriptsReadInBothModes) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  for (const std::string mode : {"batch", "incremental"}) {
+    const Answer answer =
+        run_program(folder, "solve t.g2o --backend gauss-newton --json --mode " + mode);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const Json json = Json::parse(answer.out);
+    for (const char* key : {"graph", "backend", "linear", "mode", "init", "poses", "edges",
+                            "status", "status_message", "iterations", "chi2", "chi2_initial",
+                            "total_s", "cpu_s", "peak_rss_mib", "update_ms"}) {
+      EXPECT_TRUE(json.contains(key)) << key;
+    }
+    EXPECT_EQ(json["graph"], "t.g2o");
+    EXPECT_EQ(json["mode"], mode);
+    EXPECT_EQ(json["linear"], "block");
+    EXPECT_EQ(json["poses"], 3);
+    EXPECT_EQ(json["edges"], 3);
+    EXPECT_GT(json["cpu_s"], 0);
+  }
+}
+
+TEST(Solve, FindsTheOptimumOfATriangleAndWritesIt) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const Answer answer =
+      run_program(folder, "solve t.g2o --backend levenberg --init odometry --out s.g2o --json");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Json json = Json::parse(answer.out);
+  EXPECT_EQ(json["status"], "converged");
+  // 0.3 m are shared by three edges; turning does not help to first order.
+  EXPECT_NEAR(json["chi2_initial"].get<double>(), 0.09, 1e-9);
+  EXPECT_LT(json["chi2"].get<double>(), 0.0301);
+  const Answer again = run_program(folder, "solve s.g2o --backend gauss-newton --json");
+  EXPECT_NEAR(Json::parse(again.out)["chi2_initial"].get<double>(), json["chi2"].get<double>(),
+              1e-9);
+}
+
+TEST(Solve, TellsTimesPerUpdateOnlyWhereThereAreUpdates) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string request = "solve t.g2o --backend gauss-newton --json";
+  EXPECT_TRUE(Json::parse(run_program(folder, request).out)["update_ms"].is_null());
+  const Json json = Json::parse(run_program(folder, request + " --mode incremental --every 2").out);
+  for (const char* key : {"mean", "p50", "p95", "p99", "max"}) {
+    EXPECT_GT(json["update_ms"][key], 0) << key;
+  }
+  EXPECT_EQ(json["every"], 2);
+  EXPECT_TRUE(json["init"].is_null());
+}
+
+TEST(Solve, RefusesGraphsThatNobodyCanSolve) {
+  const ScratchFolder folder;
+  const std::string text = kTriangle;
+  folder.write("parted.g2o", text + "VERTEX_SE2 7 0 0 0\n");
+  folder.write("singular.g2o", text + "VERTEX_SE2 3 0 0 0\nEDGE_SE2 2 3 1 0 0 1 0 0 0 0 1\n");
+  folder.write("nan.g2o", text + "EDGE_SE2 0 1 nan 0 0 1 0 0 1 0 1\n");
+  folder.write("missing.g2o", text + "EDGE_SE2 0 9 1 0 0 1 0 0 1 0 1\n");
+  folder.write("double.g2o", text + "VERTEX_SE2 1 0 0 0\n");
+  const std::string with = " --backend gauss-newton";
+  expect_refused(folder, "solve parted.g2o" + with,
+                 {"parted.g2o: pose 7 cannot be reached from pose 0"});
+  expect_refused(folder, "solve parted.g2o --mode incremental" + with,
+                 {"parted.g2o: pose 7 cannot be reached from pose 0"});
+  expect_refused(folder, "solve singular.g2o" + with,
+                 {"singular.g2o: pose 3 is undetermined: 1 edges with singular information"});
+  expect_refused(folder, "solve nan.g2o" + with, {"nan.g2o:7", "nan"});
+  expect_refused(folder, "solve missing.g2o" + with, {"missing.g2o:7", "pose 9 has no vertex"});
+  expect_refused(folder, "solve double.g2o" + with, {"double.g2o:7"});
+}
+
+TEST(Solve, RefusesRequestsThatMakeNoSense) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string with = "solve t.g2o --backend gauss-newton ";
+  expect_refused(folder, "solve t.g2o", {"--backend"});
+  expect_refused(folder, "solve t.g2o --backend magic",
+                 {"--backend: unknown back-end \"magic\"; expected one of: ", "levenberg"});
+  expect_refused(folder, "solve no.g2o --backend levenberg", {"no.g2o"});
+  expect_refused(folder, with + "--init chordal --mode incremental", {"--init", "--mode batch"});
+  expect_refused(folder, with + "--every 3", {"--every", "--mode incremental"});
+  expect_refused(folder, with + "--width 2", {"--width", "--robust"});
+  for (const std::string width : {"0", "-1", "nan", "inf", "2x"}) {
+    expect_refused(folder, with + "--robust huber --width " + width,
+                   {"--width", "\"" + width + "\" is no width"});
+  }
+  expect_refused(folder, with + "--robust gnc", {"--robust"});
+  expect_refused(folder, with + "--linear qr", {"--linear"});
+  expect_refused(folder, with + "--out s.txt", {"s.txt", ".g2o, .graph or .toro"});
+  expect_refused(folder, with + "--out t.g2o", {"t.g2o", "the file that is read"});
+}
+
+TEST(Solve, AGraphWithoutASolutionIsAnAnswerThatNamesThePose) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", std::string(kTriangle) +
+                            "VERTEX_SE2 3 1 2 0\nEDGE_SE2 0 1 1 0 0 1e16 0 0 1e16 0 1e16\n"
+                            "EDGE_SE2 2 3 0 1 0 1e-3 0 0 1e-3 0 1e-3\n");
+  const Answer answer =
+      run_program(folder, "solve t.g2o --backend gauss-newton --out s.g2o --json");
+  EXPECT_EQ(answer.exit_code, 1) << answer.err;
+  const Json json = Json::parse(answer.out);
+  EXPECT_EQ(json["status"], "rank_deficient");
+  EXPECT_EQ(json["status_message"], "pose 3 is undetermined");
+  EXPECT_EQ(contents_of(folder.path()), std::vector<std::string>{"t.g2o"});
+}
+
+}  // namespace
+}  // namespace corridor::testing
