@@ -88,6 +88,10 @@ Result<void> check_request(const SolveCommand& command) {
   if (command.every && !is_incremental(command)) {
     return not_together("--every", "a batch solution has no updates", "--mode incremental with it");
   }
+  if (command.do_converge && !is_incremental(command)) {
+    return not_together("--converge", "a batch solution goes on by itself",
+                        "--mode incremental with it");
+  }
   if (command.width && command.robust == "none") {
     return not_together("--width", "without a kernel there is no width", "--robust with it");
   }
@@ -109,6 +113,7 @@ solve::SolveOptions options_of(const SolveCommand& command) {
   const auto init = std::find(kInits.begin(), kInits.end(), command.init.value_or("file"));
   options.init = static_cast<solve::Initialization>(init - kInits.begin());
   options.poses_per_update = command.every.value_or(1);
+  options.do_converge = command.do_converge;
   options.kernel.kind = from_text(kKernels, command.robust);
   options.kernel.width = command.width.value_or(1.0);
   return options;
@@ -156,6 +161,7 @@ Json to_json(const SolveCommand& command, const formats::PoseGraph& graph,
   json["robust"] = command.robust;
   json["width"] = command.robust == "none" ? Json() : Json(options.kernel.width);
   json["every"] = is_incremental(command) ? Json(options.poses_per_update) : Json();
+  json["converge"] = is_incremental(command) ? Json(command.do_converge) : Json();
   json["poses"] = graph.vertices.size();
   json["edges"] = graph.edges.size();
   json["status"] = backend::to_text(run.status);
@@ -168,6 +174,8 @@ Json to_json(const SolveCommand& command, const formats::PoseGraph& graph,
   json["cost"] = or_null(run.cost);
   json["total_s"] = run.total_s;
   json["init_s"] = is_incremental(command) ? Json() : Json(run.init_s);
+  json["converge_s"] = or_null(run.converge_s);
+  json["converge_rounds"] = or_null(run.converge_rounds);
   json["cpu_s"] = run.cpu_s;
   json["peak_rss_mib"] = or_null(run.peak_rss_mib);
   json["update_ms"] = update_times(run);
@@ -256,9 +264,13 @@ void SolveCommand::add_to(CLI::App& command) {
   command.add_option("--width", width, "Width of the kernel in standard deviations (1)")
       ->check(not_a_width)
       ->type_name("K");
-  command.add_option("--every", every, "Poses per update of incremental (1)")
+  command
+      .add_option("--every", every,
+                  "Solve at every K-th pose of incremental; the others wait at their edges (1)")
       ->check(CLI::PositiveNumber)
       ->type_name("K");
+  command.add_flag("--converge", do_converge,
+                   "After the last pose of incremental, go on until the gradient is small");
   command.add_option("--out", out, "The graph with its poses solved")->type_name("S.g2o");
   command.add_flag("--json", is_json, "One JSON document");
   common.add_to(command);
@@ -289,7 +301,8 @@ Result<ExitCode> SolveCommand::run() const {
     for (const std::string& note : problem->notes) common.say("note: " + note);
     std::fputs(to_text(json).c_str(), stdout);
   }
-  const bool is_limit_an_answer = is_incremental(*this);  // an update promises no convergence
+  // An update promises no convergence.
+  const bool is_limit_an_answer = is_incremental(*this) && !do_converge;
   const bool has_converged = answer->status == backend::SolveStatus::kConverged;
   return has_converged || (is_limit_an_answer && has_answer(*answer)) ? runner::kExitDone
                                                                       : runner::kExitNo;
