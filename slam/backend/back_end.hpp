@@ -32,6 +32,9 @@ struct ConvergenceBudget {
   double relative_decrement = 1e-9;
 };
 
+// The number of a factor that was left out.
+inline constexpr graph::FactorId kNoFactor = std::numeric_limits<graph::FactorId>::max();
+
 // Whether the Newton decrement g^T H^-1 g = delta^T H delta, the decrease of the cost that a step
 // delta promises, is at most that share of the cost. It has no unit and depends neither on scales
 // nor on the choice of coordinates. Decrements that rounding alone would leave are small as well.
@@ -53,6 +56,13 @@ struct BackEndReport {
   std::int64_t num_eliminated = 0;         // variables eliminated anew, summed over iterations
   std::optional<graph::Key> undetermined;  // with kRankDeficient: a variable that nothing holds
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
+  // Of a back-end that forgets, since its report before: new factors that were left out because
+  // they name a variable that left (their number is kNoFactor), and removals that came too late.
+  std::int64_t num_dropped_factors = 0;
+  std::int64_t num_late_removals = 0;
+  // Of isam2 and what is built on it: cliques of the tree, and memory of their fronts.
+  std::int64_t num_cliques = 0;
+  std::int64_t front_memory_bytes = 0;
 };
 
 class BackEnd {

@@ -7,6 +7,7 @@
 
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/linear/make_linear_solver.hpp"
 
 namespace corridor::backend {
 namespace {
@@ -18,8 +19,11 @@ using graph::Values;
 
 class LeastSquares final : public BackEnd {
  public:
-  explicit LeastSquares(const LeastSquaresParams& params)
-      : params_(params), cholesky_(linear::make_linear_solver(params.linear)) {}
+  explicit LeastSquares(const LeastSquaresParams& params) : params_(params) {
+    const auto kind = linear::linear_solver_from_text(params.linear);
+    CORRIDOR_EXPECT(kind.has_value());
+    cholesky_ = linear::make_linear_solver(*kind);
+  }
 
   std::string_view name() const override {
     return params_.use_damping ? "levenberg" : "gauss-newton";
@@ -200,6 +204,11 @@ class LeastSquares final : public BackEnd {
 };
 
 }  // namespace
+
+std::vector<std::string> LeastSquaresParams::relations() const {
+  if (linear::linear_solver_from_text(linear)) return {};
+  return {"linear = \"" + linear + "\": expected block or cholmod"};
+}
 
 std::unique_ptr<BackEnd> make_least_squares(const LeastSquaresParams& params) {
   return std::make_unique<LeastSquares>(params);
