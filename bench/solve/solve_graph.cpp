@@ -79,6 +79,7 @@ void count(const BackEndReport& report, SolveRun& run) {
   run.num_iterations += report.num_iterations;
   run.num_relinearized += report.num_relinearized;
   run.num_eliminated += report.num_eliminated;
+  run.num_dropped += report.num_dropped_factors;
 }
 
 Result<graph::Values> initial_values(const Problem& problem, Initialization init) {

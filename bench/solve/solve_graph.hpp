@@ -33,6 +33,8 @@ struct SolveRun {
   std::int64_t num_iterations = 0;
   std::int64_t num_relinearized = 0;
   std::int64_t num_eliminated = 0;
+  std::int64_t num_dropped =
+      0;  // edges to poses that a back-end has forgotten; in chi2 all the same
   // Sum of e^T Omega e over the edges, kernels and priors left out; of kBatch also at the start.
   // Nothing if kIncremental failed on the way.
   std::optional<double> chi2;
