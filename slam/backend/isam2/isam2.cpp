@@ -242,10 +242,9 @@ class Isam2 final : public BackEnd {
     for (const Key key : linearization_.keys()) mark(index_.of(key));
     relinearize(report);
     is_estimate_current_ = false;
-    const WeightedCost before = weighted_cost(graph_, linearization_);
-    report.chi2 = before.cost;
-    if (!std::isfinite(before.cost) || !eliminate(report)) return false;
-    report.decrement = before.squares - tree_.chi2();
+    report.chi2 = graph_.cost(linearization_);
+    if (!std::isfinite(report.chi2) || !eliminate(report)) return false;
+    report.decrement = report.chi2 - tree_.chi2();
     ++report.num_iterations;
     return true;
   }

@@ -41,14 +41,4 @@ void add_information(const graph::FactorGraph& graph, graph::FactorId id,
   });
 }
 
-WeightedCost weighted_cost(const graph::FactorGraph& graph, const graph::Values& values) {
-  WeightedCost sum;
-  graph.for_each([&](graph::FactorId, const auto& factor, const graph::RobustKernel& kernel) {
-    const double s = graph::chi2_of(factor, values);
-    sum.cost += kernel.cost(s);
-    sum.squares += kernel.weight(s) * s;
-  });
-  return sum;
-}
-
 }  // namespace corridor::backend

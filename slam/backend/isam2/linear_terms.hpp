@@ -21,11 +21,4 @@ void add_information(const graph::FactorGraph& graph, graph::FactorId id,
                      const graph::Values& values, graph::Key variable,
                      Eigen::Matrix3d& information);
 
-// A cost and what stands for it while the kernels' weights are held: of plain factors the same.
-struct WeightedCost {
-  double cost = 0;     // sum of rho(||r||^2)
-  double squares = 0;  // sum of w ||r||^2
-};
-WeightedCost weighted_cost(const graph::FactorGraph& graph, const graph::Values& values);
-
 }  // namespace corridor::backend

@@ -83,6 +83,22 @@ RC_GTEST_PROP(Convergence, TheDecrementIsThatOfTheDenseNormalEquations, (std::ui
   RC_ASSERT(std::abs(one - other) < 1e-9 * other);
 }
 
+TEST(Convergence, TheDecrementUnderAKernelIsThatOfTheNormalEquations) {
+  const auto incremental = make_isam2({}), batch = make_least_squares({});
+  const testing::PoseGraph problem = disturbed(3);
+  for (const auto& solver : {incremental.get(), batch.get()}) {
+    for (std::uint32_t i = 0; i < problem.steps.size(); ++i) {
+      graph::Values values;
+      values.set_pose(i, problem.initial.pose(i));
+      std::vector<NewFactor> factors = problem.steps[i];
+      for (NewFactor& factor : factors) factor.kernel = {graph::KernelKind::kHuber, 0.5};
+      (void)solver->add(std::move(factors), values);
+    }
+  }
+  const double expected = batch->update_until_converged({1}).decrement;
+  EXPECT_NEAR(incremental->update_until_converged({1}).decrement, expected, 1e-9 * expected);
+}
+
 TEST(Convergence, ABudgetThatIsUsedIsSaidAndTheRestComesWithTheNext) {
   for (const Make& make : makers()) {
     const auto solver = make();
