@@ -175,6 +175,9 @@ class KartoSlam::Impl {
     totals["fine_loop_matches"] = mapper.fine_loop_matches;
     totals["loop_closures"] = mapper.loop_closures;
     totals["failed_solves"] = mapper.failed_solves;
+    if (mapper.dropped_factors > 0) {
+      totals["dropped_factors"] = static_cast<double>(mapper.dropped_factors);
+    }
     totals["factors"] = static_cast<double>(mapper_->pose_graph().factors().num_factors());
     return totals;
   }

@@ -143,7 +143,9 @@ bool Mapper::try_loop(const Chain& chain) {
 
 void Mapper::correct_poses() {
   const auto in_stage = clock_.enter(Stage::kOptimise);
-  if (!is_usable(pose_graph_.solve().status)) {
+  const backend::BackEndReport report = pose_graph_.solve();
+  counters_.dropped_factors += report.num_dropped_factors;
+  if (!is_usable(report.status)) {
     ++counters_.failed_solves;
     return;
   }

@@ -21,7 +21,8 @@ struct MapperCounters {
   int coarse_loop_matches = 0;
   int fine_loop_matches = 0;
   int loop_closures = 0;
-  int failed_solves = 0;  // the back-end gave no usable estimate; poses were kept
+  int failed_solves = 0;             // the back-end gave no usable estimate; poses were kept
+  std::int64_t dropped_factors = 0;  // by a back-end that forgets old poses
 };
 
 class Mapper {

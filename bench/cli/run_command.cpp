@@ -64,7 +64,7 @@ tl::unexpected<Error> at_option(std::string option, const Error& error) {
   return fail(error.code, error.what, std::move(option), error.expected);
 }
 
-// Every --set says something that no other one says, about a system that is run.
+// Every --set says something that no other one says, about a system or back-end that is run.
 Result<void> check_overrides(const runner::Suite& suite, const std::vector<std::string>& texts) {
   std::set<std::string> keys;
   for (const std::string& text : texts) {
@@ -73,14 +73,18 @@ Result<void> check_overrides(const runner::Suite& suite, const std::vector<std::
       return fail(ErrorCode::kInvalid, fmt::format("{} is given twice", key), "--set",
                   "each parameter once");
     }
-    const std::string system = key.substr(0, key.find('.'));
-    const auto runs_it = [&](const runner::SystemChoice& choice) {
-      return choice.system == system;
-    };
+    const std::string owner = key.substr(0, key.find('.'));
+    if (runner::check_back_end(owner)) {
+      const std::vector<std::string> used = runner::back_ends_of(suite);
+      if (std::find(used.begin(), used.end(), owner) != used.end()) continue;
+      return fail(ErrorCode::kInvalid, fmt::format(R"(back-end "{}" is not run)", owner), "--set",
+                  used.empty() ? "a system" : fmt::format("one of: {}", fmt::join(used, ", ")));
+    }
+    const auto runs_it = [&](const runner::SystemChoice& choice) { return choice.system == owner; };
     if (std::any_of(suite.systems.begin(), suite.systems.end(), runs_it)) continue;
     std::vector<std::string> run;
     for (const runner::SystemChoice& choice : suite.systems) run.push_back(choice.system);
-    return fail(ErrorCode::kInvalid, fmt::format(R"(system "{}" is not run)", system), "--set",
+    return fail(ErrorCode::kInvalid, fmt::format(R"(system "{}" is not run)", owner), "--set",
                 fmt::format("one of: {}", fmt::join(without_repeats(run), ", ")));
   }
   return {};
@@ -117,8 +121,8 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--backend", backends, "Back-end instead of the systems' own; repeat");
   command.add_option("--dataset", datasets,
                      "Data set, log file or scenario instead of the suite's; repeat");
-  command.add_option("--set", overrides, "Parameter of a system; repeat")
-      ->type_name("SYSTEM.key=value");
+  command.add_option("--set", overrides, "Parameter of a system or back-end; repeat")
+      ->type_name("NAME.key=value");
   command.add_flag("--resume", is_resumed,
                    "Keep cases in DIR that are finished and were run by this build of the program");
   command.add_flag("--no-report", has_no_report, "Leave out tables, figures and page");

@@ -22,10 +22,13 @@
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
+#include "bench/runner/overrides.hpp"
 #include "bench/solve/solve_graph.hpp"
 #include "bench/statistics/quantiles.hpp"
 #include "datasets/catalog/load_dataset.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
+#include "slam/backend/fixed_lag/fixed_lag.hpp"
+#include "slam/linear/make_linear_solver.hpp"
 
 namespace corridor::cli {
 namespace {
@@ -71,6 +74,26 @@ bool has_linear_solver(const SolveCommand& command) {
   return command.back_end == "gauss-newton" || command.back_end == "levenberg";
 }
 
+// What --set, --linear and --lag say of the back-end's parameters, each once.
+Result<ParamValues> overrides_of(const SolveCommand& command) {
+  ParamValues overrides;
+  if (command.linear) overrides["linear"] = *command.linear;
+  if (command.lag) overrides["lag"] = std::to_string(*command.lag);
+  for (const std::string& text : command.overrides) {
+    const Result<runner::Override> set = runner::parse_override(text);
+    if (!set) return tl::make_unexpected(set.error());
+    if (set->owner != command.back_end) {
+      return not_together("--set", fmt::format(R"(back-end "{}" is not used)", set->owner),
+                          command.back_end + ".key=value");
+    }
+    if (!overrides.emplace(set->key, set->value).second) {
+      return not_together("--set", fmt::format("{}.{} is given twice", set->owner, set->key),
+                          "each parameter once");
+    }
+  }
+  return overrides;
+}
+
 Result<void> check_request(const SolveCommand& command) {
   if (const Result<void> known = runner::check_back_end(command.back_end); !known) {
     Error error = known.error();
@@ -81,12 +104,24 @@ Result<void> check_request(const SolveCommand& command) {
     return not_together("--linear", command.back_end + " has a factorisation of its own",
                         "gauss-newton or levenberg with it");
   }
+  if (command.lag && command.back_end != "fixed-lag") {
+    return not_together("--lag", command.back_end + " forgets no pose",
+                        "--backend fixed-lag with it");
+  }
+  if (command.back_end == "fixed-lag" && !is_incremental(command)) {
+    return not_together("--backend", "a batch solution has no window that moves along",
+                        "--mode incremental with fixed-lag");
+  }
   if (command.init && is_incremental(command)) {
     return not_together("--init", "poses that come one by one start at their edges",
                         "--mode batch with it");
   }
   if (command.every && !is_incremental(command)) {
     return not_together("--every", "a batch solution has no updates", "--mode incremental with it");
+  }
+  if (command.do_converge && !is_incremental(command)) {
+    return not_together("--converge", "a batch solution goes on by itself",
+                        "--mode incremental with it");
   }
   if (command.width && command.robust == "none") {
     return not_together("--width", "without a kernel there is no width", "--robust with it");
@@ -109,16 +144,16 @@ solve::SolveOptions options_of(const SolveCommand& command) {
   const auto init = std::find(kInits.begin(), kInits.end(), command.init.value_or("file"));
   options.init = static_cast<solve::Initialization>(init - kInits.begin());
   options.poses_per_update = command.every.value_or(1);
+  options.do_converge = command.do_converge;
   options.kernel.kind = from_text(kKernels, command.robust);
   options.kernel.width = command.width.value_or(1.0);
   return options;
 }
 
-backend::LeastSquaresParams settings_of(const SolveCommand& command) {
+backend::LeastSquaresParams default_settings() {
   backend::LeastSquaresParams settings;
   settings.max_iterations = kMaxIterations;
   settings.min_relative_decrease = kMinRelativeDecrease;
-  if (command.linear) settings.linear = from_text(kLinearSolvers, *command.linear);
   return settings;
 }
 
@@ -144,23 +179,29 @@ Json update_times(const solve::SolveRun& run) {
   return json;
 }
 
-Json to_json(const SolveCommand& command, const formats::PoseGraph& graph,
-             const solve::SolveRun& run) {
+Json to_json(const SolveCommand& command, const ParamValues& overrides,
+             const formats::PoseGraph& graph, const solve::SolveRun& run) {
   const solve::SolveOptions options = options_of(command);
   Json json;
   json["graph"] = command.graph;
   json["backend"] = command.back_end;
-  json["linear"] = has_linear_solver(command) ? Json(to_text(settings_of(command).linear)) : Json();
+  const auto linear = overrides.find("linear");
+  json["linear"] = !has_linear_solver(command) ? Json()
+                   : linear != overrides.end() ? Json(linear->second)
+                                               : Json(default_settings().linear);
   json["mode"] = command.mode;
   json["init"] = is_incremental(command) ? Json() : Json(command.init.value_or("file"));
   json["robust"] = command.robust;
   json["width"] = command.robust == "none" ? Json() : Json(options.kernel.width);
   json["every"] = is_incremental(command) ? Json(options.poses_per_update) : Json();
+  json["converge"] = is_incremental(command) ? Json(command.do_converge) : Json();
+  json["parameters"] = overrides.empty() ? Json() : Json(overrides);
   json["poses"] = graph.vertices.size();
   json["edges"] = graph.edges.size();
   json["status"] = backend::to_text(run.status);
   json["status_message"] = run.status_message;
   json["iterations"] = run.num_iterations;
+  json["dropped_edges"] = run.num_dropped;
   json["relinearized"] = run.num_relinearized;
   json["eliminated"] = run.num_eliminated;
   json["chi2"] = or_null(run.chi2);
@@ -168,6 +209,8 @@ Json to_json(const SolveCommand& command, const formats::PoseGraph& graph,
   json["cost"] = or_null(run.cost);
   json["total_s"] = run.total_s;
   json["init_s"] = is_incremental(command) ? Json() : Json(run.init_s);
+  json["converge_s"] = or_null(run.converge_s);
+  json["converge_rounds"] = or_null(run.converge_rounds);
   json["cpu_s"] = run.cpu_s;
   json["peak_rss_mib"] = or_null(run.peak_rss_mib);
   json["update_ms"] = update_times(run);
@@ -242,7 +285,7 @@ void SolveCommand::add_to(CLI::App& command) {
   command
       .add_option("--linear", linear,
                   "Factorisation of gauss-newton and levenberg (" +
-                      linear::to_text(backend::LeastSquaresParams().linear) + ")")
+                      backend::LeastSquaresParams().linear + ")")
       ->check(CLI::IsMember(texts_of(kLinearSolvers)));
   command.add_option("--mode", mode, "batch: all at once; incremental: pose by pose")
       ->check(CLI::IsMember({"batch", "incremental"}));
@@ -256,9 +299,20 @@ void SolveCommand::add_to(CLI::App& command) {
   command.add_option("--width", width, "Width of the kernel in standard deviations (1)")
       ->check(not_a_width)
       ->type_name("K");
-  command.add_option("--every", every, "Poses per update of incremental (1)")
+  command
+      .add_option("--every", every,
+                  "Solve at every K-th pose of incremental; the others wait at their edges (1)")
       ->check(CLI::PositiveNumber)
       ->type_name("K");
+  command
+      .add_option(
+          "--lag", lag,
+          fmt::format("Poses in the window of fixed-lag ({})", backend::FixedLagParams().lag))
+      ->type_name("N");
+  command.add_option("--set", overrides, "Parameter of the back-end; repeat")
+      ->type_name("BACKEND.key=value");
+  command.add_flag("--converge", do_converge,
+                   "After the last pose of incremental, go on until the gradient is small");
   command.add_option("--out", out, "The graph with its poses solved")->type_name("S.g2o");
   command.add_flag("--json", is_json, "One JSON document");
   common.add_to(command);
@@ -268,10 +322,12 @@ Result<ExitCode> SolveCommand::run() const {
   if (const Result<void> good = check_request(*this); !good) {
     return tl::make_unexpected(good.error());
   }
+  const Result<ParamValues> set = overrides_of(*this);
+  if (!set) return tl::make_unexpected(set.error());
+  const auto solver = runner::make_back_end(back_end, default_settings(), *set);
+  if (!solver) return tl::make_unexpected(solver.error());
   const Result<formats::PoseGraph> problem = load(*this);
   if (!problem) return tl::make_unexpected(problem.error());
-  const auto solver = runner::make_back_end(back_end, settings_of(*this));
-  if (!solver) return tl::make_unexpected(solver.error());
   const Result<solve::SolveRun> answer = solve::solve_graph(*problem, **solver, options_of(*this));
   if (!answer) {
     Error error = answer.error();
@@ -282,14 +338,15 @@ Result<ExitCode> SolveCommand::run() const {
     const Result<void> written = write_solution(*this, *problem, (*solver)->estimate());
     if (!written) return tl::make_unexpected(written.error());
   }
-  const Json json = to_json(*this, *problem, *answer);
+  const Json json = to_json(*this, *set, *problem, *answer);
   if (is_json) {
     std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   } else {
     for (const std::string& note : problem->notes) common.say("note: " + note);
     std::fputs(to_text(json).c_str(), stdout);
   }
-  const bool is_limit_an_answer = is_incremental(*this);  // an update promises no convergence
+  // An update promises no convergence.
+  const bool is_limit_an_answer = is_incremental(*this) && !do_converge;
   const bool has_converged = answer->status == backend::SolveStatus::kConverged;
   return has_converged || (is_limit_an_answer && has_answer(*answer)) ? runner::kExitDone
                                                                       : runner::kExitNo;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/cli/command.hpp"
 
@@ -19,6 +20,9 @@ struct SolveCommand {
   std::optional<std::string> init;
   std::optional<double> width;
   std::optional<int> every;
+  std::optional<int> lag;
+  std::vector<std::string> overrides;
+  bool do_converge = false;
   std::string out;
   bool is_json = false;
 

@@ -5,7 +5,9 @@
 #include <functional>
 #include <utility>
 
+#include "bench/runner/overrides.hpp"
 #include "slam/backend/ceres/ceres_back_end.hpp"
+#include "slam/backend/fixed_lag/fixed_lag.hpp"
 #include "slam/backend/isam2/isam2.hpp"
 
 namespace corridor::runner {
@@ -13,41 +15,58 @@ namespace {
 
 using backend::BackEnd;
 using backend::LeastSquaresParams;
+using MadeBackEnd = Result<std::unique_ptr<BackEnd>>;
 
 struct Entry {
   BackEndInfo info;
-  std::function<std::unique_ptr<BackEnd>(const LeastSquaresParams& settings)> make;
+  std::function<MadeBackEnd(const LeastSquaresParams& settings, const ParamValues& overrides)> make;
 };
 
+// params_of(settings) are its parameters where nothing is set by hand, make(params) makes it.
+template <class ParamsOf, class Make>
+Entry entry_of(std::string name, std::string description, ParamsOf params_of, Make make) {
+  const std::vector<ParamRow> table = param_table(params_of(LeastSquaresParams()));
+  const auto make_with = [=](const LeastSquaresParams& settings,
+                             const ParamValues& overrides) -> MadeBackEnd {
+    const std::string where = "back-end " + name;
+    const auto params =
+        with_nearest_names(table, overrides, where, "one of `corridor-bench list backends --json`",
+                           [&](const ParamValues& known) {
+                             return with_overrides(params_of(settings), known, where);
+                           });
+    if (!params) return tl::make_unexpected(params.error());
+    return make(*params);
+  };
+  return {{name, std::move(description), table}, make_with};
+}
+
 Entry least_squares_entry(std::string name, std::string description, bool use_damping) {
-  LeastSquaresParams params;
-  params.use_damping = use_damping;
-  return {{std::move(name), std::move(description), param_table(params)},
-          [use_damping](LeastSquaresParams settings) {
-            settings.use_damping = use_damping;
-            return backend::make_least_squares(settings);
-          }};
+  const auto params_of = [use_damping](LeastSquaresParams settings) {
+    settings.use_damping = use_damping;
+    return settings;
+  };
+  return entry_of(std::move(name), std::move(description), params_of, backend::make_least_squares);
 }
 
-Entry ceres_entry(std::string name, std::string description, const backend::CeresParams& params) {
-  return {{std::move(name), std::move(description), param_table(params)},
-          [params](const LeastSquaresParams&) { return backend::make_ceres(params); }};
-}
-
-Entry isam2_entry() {
-  return {{"isam2", "incremental smoothing on the Bayes tree [Kaess2012]",
-           param_table(backend::Isam2Params())},
-          [](const LeastSquaresParams&) { return backend::make_isam2({}); }};
+// A back-end with parameters of its own, whatever system asks.
+template <class P, class Make>
+Entry own_entry(std::string name, std::string description, const P& params, Make make) {
+  return entry_of(
+      std::move(name), std::move(description),
+      [params](const LeastSquaresParams&) { return params; }, make);
 }
 
 std::vector<Entry> entries() {
-  return {
-      least_squares_entry("gauss-newton", "batch Gauss-Newton on sparse Cholesky", false),
-      least_squares_entry("levenberg", "batch Levenberg-Marquardt on sparse Cholesky", true),
-      isam2_entry(),
-      ceres_entry("ceres", "Ceres Solver with its default settings, a third-party reference", {}),
-      ceres_entry("ceres@tuned", "Ceres Solver with the settings fastest on pose graphs",
-                  backend::tuned_ceres_params())};
+  return {least_squares_entry("gauss-newton", "batch Gauss-Newton on sparse Cholesky", false),
+          least_squares_entry("levenberg", "batch Levenberg-Marquardt on sparse Cholesky", true),
+          own_entry("isam2", "incremental smoothing on the Bayes tree [Kaess2012]",
+                    backend::Isam2Params(), backend::make_isam2),
+          own_entry("fixed-lag", "isam2 on the newest poses; older ones are marginalised",
+                    backend::FixedLagParams(), backend::make_fixed_lag),
+          own_entry("ceres", "Ceres Solver with its default settings, a third-party reference",
+                    backend::CeresParams(), backend::make_ceres),
+          own_entry("ceres@tuned", "Ceres Solver with the settings fastest on pose graphs",
+                    backend::tuned_ceres_params(), backend::make_ceres)};
 }
 
 }  // namespace
@@ -69,9 +88,10 @@ Result<void> check_back_end(std::string_view name) {
 }
 
 Result<std::unique_ptr<BackEnd>> make_back_end(std::string_view name,
-                                               const LeastSquaresParams& settings) {
+                                               const LeastSquaresParams& settings,
+                                               const ParamValues& overrides) {
   for (const Entry& entry : entries()) {
-    if (entry.info.name == name) return entry.make(settings);
+    if (entry.info.name == name) return entry.make(settings, overrides);
   }
   return tl::make_unexpected(check_back_end(name).error());
 }

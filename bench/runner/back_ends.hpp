@@ -25,8 +25,11 @@ std::vector<BackEndInfo> back_ends();
 Result<void> check_back_end(std::string_view name);
 
 // `settings` are the limits and thresholds of the system that asks, for the least-squares solvers
-// of our own; the name decides the method. The others run with their own parameters.
-Result<std::unique_ptr<backend::BackEnd>> make_back_end(
-    std::string_view name, const backend::LeastSquaresParams& settings);
+// of our own; the name decides the method. The others run with their own parameters. `overrides`
+// come on top of either; the Error lists all unknown ones, each with those it may have been meant
+// for, and all broken rules.
+Result<std::unique_ptr<backend::BackEnd>> make_back_end(std::string_view name,
+                                                        const backend::LeastSquaresParams& settings,
+                                                        const ParamValues& overrides = {});
 
 }  // namespace corridor::runner

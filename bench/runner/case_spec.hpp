@@ -30,7 +30,7 @@ struct CaseSpec {
   std::string system;
   std::string profile;
   std::optional<std::string> backend;
-  ParamValues overrides;
+  ParamValues overrides;  // see split_overrides()
   DataKind data_kind = DataKind::kSimulated;
   std::string dataset;      // name for people: the scenario's, the catalogue's, or the file's
   std::string data_source;  // what to load: catalogue name, scenario name, or path

@@ -125,9 +125,6 @@ class Planner {
     spec.suite = suite_.name;
     spec.system = choice.system;
     spec.profile = choice.profile;
-    if (const auto found = suite_.overrides.find(choice.system); found != suite_.overrides.end()) {
-      spec.overrides = found->second;
-    }
     spec.data_kind = item.kind;
     spec.dataset = item.name;
     spec.data_source = item.source;
@@ -138,11 +135,13 @@ class Planner {
     spec.data_digest = item.digest;
     if (!info->default_backend || suite_.backends.empty()) {
       spec.backend = info->default_backend;
+      spec.overrides = overrides_of_case(suite_, choice.system, spec.backend);
       plan_.cases.push_back(spec);
       return;
     }
     for (const std::string& backend : suite_.backends) {
       spec.backend = backend;
+      spec.overrides = overrides_of_case(suite_, choice.system, spec.backend);
       plan_.cases.push_back(spec);
     }
   }

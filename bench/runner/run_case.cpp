@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/metrics/score_case.hpp"
@@ -17,6 +18,7 @@
 #include "bench/runner/detection.hpp"
 #include "bench/runner/drive.hpp"
 #include "bench/runner/git_revision.hpp"
+#include "bench/runner/overrides.hpp"
 #include "bench/runner/systems.hpp"
 #include "slam/mapping/occupancy_mapper.hpp"
 
@@ -33,8 +35,9 @@ Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const Case
     return fail(ErrorCode::kInvalid, fmt::format("system {} needs {}", spec.system, *missing),
                 spec.dataset, "a log with readings of each sensor that it needs");
   }
-  return info->make(
-      {spec.profile, spec.overrides, spec.backend, data.log.robot, spec.system_seed, spec.threads});
+  CaseOverrides overrides = split_overrides(spec.overrides, spec.backend);
+  return info->make({spec.profile, std::move(overrides.system), spec.backend, data.log.robot,
+                     spec.system_seed, spec.threads, std::move(overrides.back_end)});
 }
 
 // How the base moved during a sweep, as the trajectory has it; none where it does not reach.
@@ -191,8 +194,12 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
   result.build_id = build_id();
   result.machine_id = results::this_machine().machine_id;
   if (const Result<SystemInfo> info = find_system(spec.system)) {
-    const Result<ParamValues> values = info->resolve(spec.profile, spec.overrides);
+    const CaseOverrides overrides = split_overrides(spec.overrides, spec.backend);
+    const Result<ParamValues> values = info->resolve(spec.profile, overrides.system);
     if (values) result.parameters = *values;
+    for (const auto& [name, value] : overrides.back_end) {
+      result.parameters[*spec.backend + "." + name] = value;
+    }
   }
   std::string text;
   for (const auto& [name, value] : result.parameters) text += fmt::format("{} = {}\n", name, value);

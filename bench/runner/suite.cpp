@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "bench/runner/back_ends.hpp"
-#include "bench/runner/overrides.hpp"
 
 namespace corridor::runner {
 namespace {
@@ -44,7 +43,7 @@ class Parser {
     if (suite_.scenarios.empty() && suite_.datasets.empty()) {
       problem(table, R"(neither "scenarios" nor "datasets" names any data)");
     }
-    check_overrides(table);
+    check_all_overrides(table);
     if (problems_.empty()) return suite_;
     return fail(ErrorCode::kInvalid, join(problems_));
   }
@@ -158,45 +157,44 @@ class Parser {
 
   void take_overrides(const toml::node& node) {
     const toml::table* table = node.as_table();
-    if (table == nullptr) return problem(node, "overrides: expected tables [overrides.SYSTEM]");
-    for (const auto& [system, value] : *table) {
+    if (table == nullptr) return problem(node, "overrides: expected tables [overrides.NAME]");
+    for (const auto& [owner, value] : *table) {
       const toml::table* params = value.as_table();
       if (params == nullptr) {
-        problem(value, fmt::format("overrides.{}: expected a table", system.str()));
+        problem(value, fmt::format("overrides.{}: expected a table", owner.str()));
         continue;
       }
-      take_system_overrides(std::string(system.str()), *params);
+      take_overrides_of(std::string(owner.str()), *params);
     }
   }
 
-  void take_system_overrides(const std::string& system, const toml::table& params) {
-    const Result<SystemInfo> info = find_system(system);
-    if (!info) return problem(params, "overrides: " + info.error().to_line());
+  void take_overrides_of(const std::string& owner, const toml::table& params) {
     for (const auto& [key, value] : params) {
       const std::optional<std::string> text = scalar_text(value);
       if (!text) {
-        problem(value, fmt::format("overrides.{}.{}: expected a number, text or truth value",
-                                   system, key.str()));
+        problem(value, fmt::format("overrides.{}.{}: expected a number, text or truth value", owner,
+                                   key.str()));
         continue;
       }
-      suite_.overrides[system][std::string(key.str())] = *text;
+      suite_.overrides[owner][std::string(key.str())] = *text;
     }
   }
 
-  void check_overrides(const toml::table& table) {
-    for (const auto& [system, params] : suite_.overrides) {
-      const toml::node* node = table.at_path("overrides." + system).node();
-      const Result<SystemInfo> info = find_system(system);
-      for (const SystemChoice& choice : suite_.systems) {
-        if (choice.system != system) continue;
-        const Result<ParamValues> values = resolve_overrides(*info, choice.profile, params);
-        if (!values) problem(node == nullptr ? table : *node, values.error().to_line());
+  void check_all_overrides(const toml::table& table) {
+    const std::vector<std::string> back_ends = back_ends_of(suite_);
+    for (const auto& [owner, params] : suite_.overrides) {
+      const toml::node* found = table.at_path("overrides." + owner).node();
+      const toml::node& node = found == nullptr ? table : *found;
+      if (const Result<void> good = check_overrides(suite_, owner, params); !good) {
+        problem(node, "overrides: " + good.error().to_line());
+        continue;
       }
-      const std::string& name = system;  // clang 14 captures no structured binding
+      const std::string& name = owner;  // clang 14 captures no structured binding
       const auto is_run = [&name](const SystemChoice& choice) { return choice.system == name; };
-      if (std::none_of(suite_.systems.begin(), suite_.systems.end(), is_run)) {
-        problem(node == nullptr ? table : *node,
-                fmt::format("overrides.{}: the suite does not run this system", system));
+      if (std::none_of(suite_.systems.begin(), suite_.systems.end(), is_run) &&
+          std::find(back_ends.begin(), back_ends.end(), owner) == back_ends.end()) {
+        problem(node, fmt::format("overrides.{}: the suite does not run this {}", owner,
+                                  check_back_end(owner) ? "back-end" : "system"));
       }
     }
   }

@@ -28,12 +28,12 @@ struct Suite {
   int num_seeds = 1;
   int threads = 1;
   CaseLimits limits;
-  std::map<std::string, ParamValues> overrides;  // by system
+  std::map<std::string, ParamValues> overrides;  // by system or back-end
 };
 
 // Keys: name description systems backends scenarios datasets first_seed num_seeds threads,
-// [limits] time_s memory_mib, [overrides.SYSTEM] parameter = value. The Error lists ALL unknown
-// keys, wrong types, unknown names and broken rules, each as file:line.
+// [limits] time_s memory_mib, [overrides.NAME] parameter = value, NAME a system or back-end. The
+// Error lists ALL unknown keys, wrong types, unknown names and broken rules, each as file:line.
 Result<Suite> read_suite(const std::filesystem::path& path);
 
 // bench/suites/ of the source tree; $CORRIDOR_BENCH_SUITES overrides.
@@ -43,7 +43,16 @@ std::vector<std::filesystem::path> list_suites();
 // A suite's file by its name, or the path itself if it names a .toml file.
 Result<std::filesystem::path> find_suite(const std::string& name_or_path);
 
-// Adds overrides "SYSTEM.key=value", checked against the parameters of the systems that are run.
+// The back-ends that cases of the suite have, each once.
+std::vector<std::string> back_ends_of(const Suite& suite);
+// Overrides of a system or back-end, checked against its parameters; those of a system that is not
+// run only by name.
+Result<void> check_overrides(const Suite& suite, const std::string& owner,
+                             const ParamValues& params);
+// What a case with that system and back-end has set by hand; see split_overrides().
+ParamValues overrides_of_case(const Suite& suite, const std::string& system,
+                              const std::optional<std::string>& back_end);
+// Adds overrides "NAME.key=value", checked as above.
 Result<void> add_overrides(Suite& suite, const std::vector<std::string>& texts);
 
 }  // namespace corridor::runner

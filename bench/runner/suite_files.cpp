@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "bench/runner/back_ends.hpp"
 #include "bench/runner/overrides.hpp"
 #include "bench/runner/suite.hpp"
 
@@ -41,25 +42,66 @@ Result<fs::path> find_suite(const std::string& name_or_path) {
               "a .toml file or one of: " + known);
 }
 
+std::vector<std::string> back_ends_of(const Suite& suite) {
+  std::vector<std::string> names;
+  const auto add = [&names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const SystemChoice& choice : suite.systems) {
+    const Result<SystemInfo> info = find_system(choice.system);
+    if (!info || !info->default_backend) continue;
+    if (suite.backends.empty()) add(*info->default_backend);
+    for (const std::string& name : suite.backends) add(name);
+  }
+  return names;
+}
+
+Result<void> check_overrides(const Suite& suite, const std::string& owner,
+                             const ParamValues& params) {
+  if (check_back_end(owner)) {
+    const auto made = make_back_end(owner, {}, params);
+    if (!made) return tl::make_unexpected(made.error());
+    return {};
+  }
+  const Result<SystemInfo> info = find_system(owner);
+  if (!info) {
+    return fail(
+        info.error().code, fmt::format(R"(unknown system or back-end "{}")", owner), "",
+        fmt::format("{}; {}", info.error().expected, check_back_end(owner).error().expected));
+  }
+  for (const SystemChoice& choice : suite.systems) {
+    if (choice.system != owner) continue;
+    const Result<ParamValues> values = resolve_overrides(*info, choice.profile, params);
+    if (!values) return tl::make_unexpected(values.error());
+  }
+  return {};
+}
+
+ParamValues overrides_of_case(const Suite& suite, const std::string& system,
+                              const std::optional<std::string>& back_end) {
+  ParamValues all;
+  if (const auto found = suite.overrides.find(system); found != suite.overrides.end()) {
+    all = found->second;
+  }
+  const auto found = suite.overrides.find(back_end.value_or(""));
+  if (found == suite.overrides.end()) return all;
+  for (const auto& [key, value] : found->second) all.emplace(found->first + "." + key, value);
+  return all;
+}
+
 Result<void> add_overrides(Suite& suite, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
-    const std::size_t dot = text.find('.');
-    const std::size_t equal = text.find('=');
-    if (dot == std::string::npos || equal == std::string::npos || equal < dot) {
-      return fail(ErrorCode::kInvalid, fmt::format("\"{}\" cannot be read", text), "--set",
-                  "SYSTEM.key=value");
-    }
-    suite.overrides[text.substr(0, dot)][text.substr(dot + 1, equal - dot - 1)] =
-        text.substr(equal + 1);
+    const Result<Override> set = parse_override(text);
+    if (!set) return tl::make_unexpected(set.error());
+    suite.overrides[set->owner][set->key] = set->value;
   }
-  for (const auto& [system, params] : suite.overrides) {
-    const Result<SystemInfo> info = find_system(system);
-    if (!info) return fail(info.error().code, info.error().what, "--set", info.error().expected);
-    for (const SystemChoice& choice : suite.systems) {
-      if (choice.system != system) continue;
-      const Result<ParamValues> values = resolve_overrides(*info, choice.profile, params);
-      if (!values) return fail(ErrorCode::kInvalid, values.error().to_line(), "--set");
+  for (const auto& [owner, params] : suite.overrides) {
+    const Result<void> good = check_overrides(suite, owner, params);
+    if (good) continue;
+    if (good.error().where.empty()) {
+      return fail(good.error().code, good.error().what, "--set", good.error().expected);
     }
+    return fail(ErrorCode::kInvalid, good.error().to_line(), "--set");
   }
   return {};
 }

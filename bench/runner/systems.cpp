@@ -50,7 +50,8 @@ SystemInfo karto_entry() {
         "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
         karto::corrected_params()}},
       [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
-        auto back_end = make_back_end(request.backend.value_or("levenberg"), backend::spa_params());
+        auto back_end = make_back_end(request.backend.value_or("levenberg"), backend::spa_params(),
+                                      request.backend_overrides);
         if (!back_end) return tl::make_unexpected(back_end.error());
         return karto::make_karto(params, request.robot, std::move(*back_end));
       });
@@ -100,7 +101,8 @@ SystemInfo mrpt_rbpf_entry() {
 }
 
 SystemResult make_fusion_system(const fusion::FusionParams& params, const SystemRequest& request) {
-  auto back_end = make_back_end(request.backend.value_or("gauss-newton"), {});
+  auto back_end =
+      make_back_end(request.backend.value_or("gauss-newton"), {}, request.backend_overrides);
   if (!back_end) return tl::make_unexpected(back_end.error());
   return fusion::make_fusion(params, request.robot, std::move(*back_end));
 }

@@ -31,6 +31,7 @@ struct SystemRequest {
   RobotModel robot;
   std::uint64_t seed = 1;
   int threads = 1;
+  ParamValues backend_overrides = {};  // on top of what the back-end has
 };
 
 struct SystemInfo {

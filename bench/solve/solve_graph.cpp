@@ -79,6 +79,7 @@ void count(const BackEndReport& report, SolveRun& run) {
   run.num_iterations += report.num_iterations;
   run.num_relinearized += report.num_relinearized;
   run.num_eliminated += report.num_eliminated;
+  run.num_dropped += report.num_dropped_factors;
 }
 
 Result<graph::Values> initial_values(const Problem& problem, Initialization init) {
@@ -135,12 +136,9 @@ std::vector<std::vector<graph::FactorId>> edges_by_arrival(const Problem& proble
 }
 
 // Where the edge to the earlier pose says that a new pose is.
-Pose2 predicted(const Problem& problem, const Placement& step, const graph::Values& new_values,
-                BackEnd& back_end) {
+Pose2 predicted(const Problem& problem, const Placement& step, BackEnd& back_end) {
   if (step.edge == nullptr) return problem.graph.values.pose(step.pose);
-  const bool is_new = new_values.contains(graph::pose_key(step.parent()));
-  const Pose2 parent = is_new ? new_values.pose(step.parent()) : back_end.pose(step.parent());
-  return parent * step.T_parent_pose();
+  return back_end.pose(step.parent()) * step.T_parent_pose();
 }
 
 // The estimate of the pose before this one, or the edge to it, leads beyond all numbers.
@@ -150,35 +148,49 @@ Result<void> lose(std::uint32_t pose, SolveRun& run) {
   return {};
 }
 
-Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end, int poses_per_update,
-                                 SolveRun& run) {
+// The prior, if the pose is held, and the edges that arrive with the k-th pose. Held poses come
+// first, in the order of their priors.
+std::vector<NewFactor> factors_of(const Problem& problem, std::size_t k,
+                                  const std::vector<graph::FactorId>& edges) {
+  std::vector<NewFactor> factors;
+  if (k < problem.priors.size()) factors.push_back(problem.priors[k]);
+  for (const graph::FactorId id : edges) factors.push_back(problem.edge(id));
+  return factors;
+}
+
+void converge(BackEnd& back_end, SolveRun& run) {
+  const Clock::time_point start = Clock::now();
+  const BackEndReport report = back_end.update_until_converged({});
+  run.converge_rounds = report.num_iterations;
+  count(report, run);
+  run.converge_s = seconds_since(start);
+}
+
+Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end,
+                                 const SolveOptions& options, SolveRun& run) {
   const Clock::time_point start = Clock::now();
   const auto order =
       backend::spanning_order(problem.graph.factors, problem.graph.values, problem.held);
   if (!order) return tl::make_unexpected(order.error());
   const auto arrivals = edges_by_arrival(problem, *order);
-  const auto group = static_cast<std::size_t>(poses_per_update);
-  for (std::size_t first = 0; first < order->size() && !has_failed(run.status); first += group) {
-    const std::size_t end = std::min(first + group, order->size());
-    std::vector<NewFactor> factors;
-    // Held poses come first, in the order of their priors.
-    for (std::size_t k = first; k < std::min(end, problem.priors.size()); ++k) {
-      factors.push_back(problem.priors[k]);
-    }
-    for (std::size_t k = first; k < end; ++k) {
-      for (const graph::FactorId id : arrivals[k]) factors.push_back(problem.edge(id));
-    }
+  const auto every = static_cast<std::size_t>(options.poses_per_update);
+  for (std::size_t k = 0; k < order->size() && !has_failed(run.status); ++k) {
+    const std::uint32_t pose = (*order)[k].pose;
+    std::vector<NewFactor> factors = factors_of(problem, k, arrivals[k]);
     const Clock::time_point update_start = Clock::now();
+    const Pose2 T_map_base = predicted(problem, (*order)[k], back_end);
+    if (!T_map_base.is_finite()) return lose(pose, run);
     graph::Values values;
-    for (std::size_t k = first; k < end; ++k) {
-      const Pose2 T_map_base = predicted(problem, (*order)[k], values, back_end);
-      if (!T_map_base.is_finite()) return lose((*order)[k].pose, run);
-      values.set_pose((*order)[k].pose, T_map_base);
+    values.set_pose(pose, T_map_base);
+    if ((k + 1) % every == 0 || k + 1 == order->size()) {
+      count(back_end.update(std::move(factors), values, {}), run);
+    } else {
+      (void)back_end.add(std::move(factors), values);
     }
-    count(back_end.update(std::move(factors), values, {}), run);
-    (void)back_end.pose((*order)[end - 1].pose);
+    (void)back_end.pose(pose);
     run.updates_s.push_back(seconds_since(update_start));
   }
+  if (options.do_converge && !has_failed(run.status)) converge(back_end, run);
   run.total_s = seconds_since(start);
   return {};
 }
@@ -206,10 +218,9 @@ Result<SolveRun> solve_graph(const formats::PoseGraph& graph, BackEnd& back_end,
   SolveRun run;
   runner::reset_peak_rss();
   const double cpu_before_s = runner::process_cpu_s();
-  const Result<void> done =
-      options.mode == Mode::kBatch
-          ? solve_batch(problem, back_end, options.init, run)
-          : solve_incrementally(problem, back_end, options.poses_per_update, run);
+  const Result<void> done = options.mode == Mode::kBatch
+                                ? solve_batch(problem, back_end, options.init, run)
+                                : solve_incrementally(problem, back_end, options, run);
   if (!done) return tl::make_unexpected(done.error());
   run.cpu_s = runner::process_cpu_s() - cpu_before_s;
   run.peak_rss_mib = runner::peak_rss_mib();

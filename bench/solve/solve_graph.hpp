@@ -20,7 +20,8 @@ enum class Initialization { kFile, kOdometry, kChordal };
 struct SolveOptions {
   Mode mode = Mode::kBatch;
   Initialization init = Initialization::kFile;  // of kBatch
-  int poses_per_update = 1;                     // of kIncremental
+  int poses_per_update = 1;                     // of kIncremental: the last one always updates
+  bool do_converge = false;                     // of kIncremental: after the last pose
   graph::RobustKernel kernel = {};              // of every edge
 };
 
@@ -32,6 +33,8 @@ struct SolveRun {
   std::int64_t num_iterations = 0;
   std::int64_t num_relinearized = 0;
   std::int64_t num_eliminated = 0;
+  std::int64_t num_dropped =
+      0;  // edges to poses that a back-end has forgotten; in chi2 all the same
   // Sum of e^T Omega e over the edges, kernels and priors left out; of kBatch also at the start.
   // Nothing if kIncremental failed on the way.
   std::optional<double> chi2;
@@ -41,16 +44,19 @@ struct SolveRun {
   // outside.
   double total_s = 0;
   double init_s = 0;  // of kBatch: of total_s, the time until there are initial values
+  // With do_converge: what update_until_converged() took, of total_s and num_iterations.
+  std::optional<double> converge_s;
+  std::optional<int> converge_rounds;
   double cpu_s = 0;
   std::optional<double> peak_rss_mib;
-  std::vector<double> updates_s;  // of kIncremental: one update() and reading the newest pose
+  std::vector<double> updates_s;  // of kIncremental: of every pose, its step with reading it
 };
 
 // `back_end` is empty before and has the solution afterwards. The graph's fixed poses are held by
 // priors; without any, the lowest pose is. Batch: initial values, add(), solve(). Incremental:
 // poses in the order of backend::spanning_order(), ascending numbers on a drive, each at its edge
-// to the nearest earlier one, with all edges to earlier poses; the newest is read after each
-// update.
+// to the nearest earlier one, with all edges to earlier poses, and read at once. With several poses
+// per update the ones between are added at their edges and wait: "batch every k steps".
 // An Error: poses that no edges join to a held one, or that edges of singular information leave
 // undetermined. A back-end that does not converge is no Error.
 Result<SolveRun> solve_graph(const formats::PoseGraph& graph, backend::BackEnd& back_end,

@@ -108,7 +108,10 @@ std::string system_choice(const results::RunResult& result) {
 std::vector<std::string> overrides_of(const results::RunResult& result) {
   std::vector<std::string> texts;
   for (const auto& [key, value] : result.overrides.value_or(std::map<std::string, std::string>())) {
-    texts.push_back(shell_quoted(fmt::format("{}.{}={}", result.system, key, value)));
+    // A back-end's have its name in front already.
+    const bool has_owner = key.find('.') != std::string::npos;
+    const std::string name = has_owner ? key : result.system + "." + key;
+    texts.push_back(shell_quoted(name + "=" + value));
   }
   return texts;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,22 @@ enum class SolveStatus {
 };
 std::string to_text(SolveStatus status);
 
+// How far update_until_converged() goes. Counts and no clock: the same input has the same answer.
+struct ConvergenceBudget {
+  int max_rounds = 100;
+  // Share of the cost that the next step may still promise to take off; see is_small_decrement().
+  double relative_decrement = 1e-9;
+};
+
+// The number of a factor that was left out.
+inline constexpr graph::FactorId kNoFactor = std::numeric_limits<graph::FactorId>::max();
+
+// Whether the Newton decrement g^T H^-1 g = delta^T H delta, the decrease of the cost that a step
+// delta promises, is at most that share of the cost. It has no unit and depends neither on scales
+// nor on the choice of coordinates. Decrements that rounding alone would leave are small as well.
+bool is_small_decrement(double decrement, double cost, std::int64_t num_variables,
+                        const ConvergenceBudget& budget);
+
 struct BackEndReport {
   SolveStatus status = SolveStatus::kEmpty;
   int num_iterations = 0;
@@ -31,12 +48,21 @@ struct BackEndReport {
   // chi2 is what the linearised factors predict, chi2_initial not a number.
   double chi2_initial = 0;
   double chi2 = 0;
+  // Decrease of the cost that the last step promised, where a back-end measures it.
+  double decrement = std::numeric_limits<double>::quiet_NaN();
   std::int64_t num_factors = 0;
   std::int64_t num_variables = 0;
   std::int64_t num_relinearized = 0;       // variables moved by this update, summed over iterations
   std::int64_t num_eliminated = 0;         // variables eliminated anew, summed over iterations
   std::optional<graph::Key> undetermined;  // with kRankDeficient: a variable that nothing holds
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
+  // Of a back-end that forgets, since its report before: new factors that were left out because
+  // they name a variable that left (their number is kNoFactor), and removals that came too late.
+  std::int64_t num_dropped_factors = 0;
+  std::int64_t num_late_removals = 0;
+  // Of isam2 and what is built on it: cliques of the tree, and memory of their fronts.
+  std::int64_t num_cliques = 0;
+  std::int64_t front_memory_bytes = 0;
 };
 
 class BackEnd {
@@ -57,6 +83,9 @@ class BackEnd {
                                            const graph::Values& new_values) = 0;
   // Solves again from the present estimate, until converged or the iteration limit.
   virtual BackEndReport solve() = 0;
+  // Goes on from the present estimate until the gradient is small (kConverged) or the budget is
+  // used (kMaxIterations). Plain Gauss-Newton steps may raise the cost on the way.
+  virtual BackEndReport update_until_converged(const ConvergenceBudget& budget) = 0;
   // Takes known variables out for good and keeps, as a prior on their neighbours, what their
   // factors said, linearised at the present estimate. Later factors may not name them. An error
   // where a back-end does not offer it, or where a variable is not determined.

@@ -74,6 +74,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   void keep(backend::BackEndReport report) {
     num_relinearized_ += report.num_relinearized;
+    num_dropped_factors_ += report.num_dropped_factors;
     last_report_ = std::move(report);
   }
 
@@ -308,6 +309,9 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     counters["factors"] = static_cast<double>(last_report_.num_factors);
     counters["variables"] = static_cast<double>(last_report_.num_variables);
     counters["relinearised"] = static_cast<double>(num_relinearized_);
+    if (num_dropped_factors_ > 0) {
+      counters["dropped_factors"] = static_cast<double>(num_dropped_factors_);
+    }
   }
 
   const FusionParams params_;
@@ -335,6 +339,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   int num_slips_ = 0, num_degenerate_ = 0, num_least_bad_ = 0, num_failed_solves_ = 0;
   int num_outvoted_ = 0;
   std::int64_t num_relinearized_ = 0;
+  std::int64_t num_dropped_factors_ = 0;  // by a back-end that forgets
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double 
   if (factors.empty()) return solves;
   solves.push_back(back_end.update(std::move(factors), {}, {}));
   for (std::size_t i = 0; i < scan_keys.size(); ++i) {
-    edges_.push_back({solves.front().new_factor_ids[i], scan_keys[i], path_m});
+    const graph::FactorId id = solves.front().new_factor_ids[i];
+    if (id != backend::kNoFactor) edges_.push_back({id, scan_keys[i], path_m});
   }
   solves.push_back(back_end.solve());
   remove_false_ones(back_end, solves);
@@ -33,6 +34,8 @@ LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double 
 
 void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& solves) {
   const auto chi2 = [&](const Edge& edge) {
+    // What a back-end has taken into a prior cannot be taken out any more.
+    if (!back_end.graph().contains(edge.id)) return 0.0;
     return back_end.graph().chi2(edge.id, back_end.estimate());
   };
   while (!edges_.empty()) {

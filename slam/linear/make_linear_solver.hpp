@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "slam/linear/linear_solver.hpp"
 
@@ -14,6 +16,7 @@ enum class LinearSolverKind {
 };
 // As LinearSolver::name().
 std::string to_text(LinearSolverKind kind);
+std::optional<LinearSolverKind> linear_solver_from_text(std::string_view text);
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);
 

@@ -85,12 +85,20 @@ class CeresBackEnd final : public BackEnd {
       graph_.remove(id);
     }
     std::vector<FactorId> ids = add(std::move(new_factors), new_values);
-    BackEndReport report = minimize(params_.update_iterations);
+    BackEndReport report = minimize(options(params_.update_iterations));
     report.new_factor_ids = std::move(ids);
     return report;
   }
 
-  BackEndReport solve() override { return minimize(params_.max_iterations); }
+  BackEndReport solve() override { return minimize(options(params_.max_iterations)); }
+  // Ceres keeps its decrement to itself: here the decrease that a step brought is what has to be
+  // small, or a gradient that nearly vanishes.
+  BackEndReport update_until_converged(const ConvergenceBudget& budget) override {
+    ceres::Solver::Options to_goal = options(budget.max_rounds);
+    to_goal.function_tolerance = budget.relative_decrement;
+    to_goal.parameter_tolerance = 0;
+    return minimize(to_goal);
+  }
   void set_values(const Values& values) override { values_.merge(values); }
   const Values& estimate() const override { return values_; }
   const graph::FactorGraph& graph() const override { return graph_; }
@@ -143,7 +151,7 @@ class CeresBackEnd final : public BackEnd {
                                                        : SolveStatus::kNotFinite;
   }
 
-  BackEndReport minimize(int max_iterations) {
+  BackEndReport minimize(const ceres::Solver::Options& options) {
     BackEndReport report;
     report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
     report.num_variables = static_cast<std::int64_t>(problem_.variables().keys().size());
@@ -157,7 +165,7 @@ class CeresBackEnd final : public BackEnd {
     const SilentLog silence;
     problem_.set_blocks(values_);
     ceres::Solver::Summary summary;
-    ceres::Solve(options(max_iterations), &problem_.problem(), &summary);
+    ceres::Solve(options, &problem_.problem(), &summary);
     report.status = status_of(summary);
     report.num_iterations = summary.num_linear_solves;
     if (!summary.IsSolutionUsable()) {

@@ -7,6 +7,7 @@
 
 #include "slam/backend/gauss_newton/normal_equations.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/linear/make_linear_solver.hpp"
 
 namespace corridor::backend {
 namespace {
@@ -18,8 +19,11 @@ using graph::Values;
 
 class LeastSquares final : public BackEnd {
  public:
-  explicit LeastSquares(const LeastSquaresParams& params)
-      : params_(params), cholesky_(linear::make_linear_solver(params.linear)) {}
+  explicit LeastSquares(const LeastSquaresParams& params) : params_(params) {
+    const auto kind = linear::linear_solver_from_text(params.linear);
+    CORRIDOR_EXPECT(kind.has_value());
+    cholesky_ = linear::make_linear_solver(*kind);
+  }
 
   std::string_view name() const override {
     return params_.use_damping ? "levenberg" : "gauss-newton";
@@ -44,12 +48,15 @@ class LeastSquares final : public BackEnd {
                        std::span<const FactorId> removed_factors) override {
     for (const FactorId id : removed_factors) graph_.remove(id);
     std::vector<FactorId> ids = add(std::move(new_factors), new_values);
-    BackEndReport report = minimize(params_.update_iterations);
+    BackEndReport report = minimize(params_.update_iterations, nullptr);
     report.new_factor_ids = std::move(ids);
     return report;
   }
 
-  BackEndReport solve() override { return minimize(params_.max_iterations); }
+  BackEndReport solve() override { return minimize(params_.max_iterations, nullptr); }
+  BackEndReport update_until_converged(const ConvergenceBudget& budget) override {
+    return minimize(budget.max_rounds, &budget);
+  }
   void set_values(const Values& values) override { values_.merge(values); }
   const Values& estimate() const override { return values_; }
   const graph::FactorGraph& graph() const override { return graph_; }
@@ -101,7 +108,8 @@ class LeastSquares final : public BackEnd {
     return delta_.allFinite();
   }
 
-  BackEndReport minimize(int max_iterations) {
+  // goal: stops when the decrement is as small as it says, instead of by the thresholds of params_.
+  BackEndReport minimize(int max_iterations, const ConvergenceBudget* goal) {
     BackEndReport report = begin_report();
     if (report.num_factors == 0) return report;
     report.chi2_initial = report.chi2 = equations_.linearize(graph_, values_);
@@ -114,7 +122,7 @@ class LeastSquares final : public BackEnd {
     Damping damping{params_.use_damping ? params_.initial_lambda : 0, params_.lambda_increase};
     while (report.num_iterations < max_iterations && report.status == SolveStatus::kMaxIterations) {
       ++report.num_iterations;
-      iterate(damping, report.num_iterations == max_iterations, report);
+      iterate(damping, report.num_iterations == max_iterations, goal, report);
     }
     return report;
   }
@@ -131,10 +139,29 @@ class LeastSquares final : public BackEnd {
     return is_linearized_ ? equations_.linearize(graph_, values_) : graph_.cost(values_);
   }
 
+  bool is_promise_small(const ConvergenceBudget& goal, BackEndReport& report) const {
+    report.decrement = -equations_.gradient().dot(delta_);
+    return is_small_decrement(report.decrement, report.chi2, report.num_variables, goal);
+  }
+
+  // delta_ of the next step: whether it is so short that it is the last; nothing if there is none.
+  // Damping makes steps short wherever they start: then the step without it decides.
+  std::optional<bool> find_step(double lambda, const ConvergenceBudget* goal,
+                                BackEndReport& report) {
+    if (!solve_step(lambda)) return std::nullopt;
+    if (goal == nullptr) return delta_.squaredNorm() < params_.min_squared_step;
+    if (!is_promise_small(*goal, report)) return false;
+    if (lambda == 0 || (solve_step(0) && is_promise_small(*goal, report))) return true;
+    if (!solve_step(lambda)) return std::nullopt;
+    return false;
+  }
+
   // One step from the present estimate: taken or taken back, with the status that follows.
-  void iterate(Damping& damping, bool is_last, BackEndReport& report) {
+  void iterate(Damping& damping, bool is_last, const ConvergenceBudget* goal,
+               BackEndReport& report) {
     if (!is_linearized_) equations_.linearize(graph_, values_);
-    if (!solve_step(damping.lambda)) {
+    const std::optional<bool> is_short = find_step(damping.lambda, goal, report);
+    if (!is_short) {
       report.status = SolveStatus::kRankDeficient;
       report.undetermined = undetermined();
       return;
@@ -142,23 +169,22 @@ class LeastSquares final : public BackEnd {
     before_ = values_;
     values_.retract(equations_.variables(), delta_.data());
     report.num_relinearized += report.num_variables;
-    const bool is_short = delta_.squaredNorm() < params_.min_squared_step;
-    const double chi2 = evaluate(is_last || is_short);
+    const double chi2 = evaluate(is_last || *is_short);
     // Damped steps are judged by chi2; plain ones always stand.
     if (std::isfinite(chi2) && (!params_.use_damping || chi2 < report.chi2)) {
       const double decrease = std::abs(report.chi2 - chi2);
-      const bool is_flat = params_.min_relative_decrease > 0 &&
+      const bool is_flat = goal == nullptr && params_.min_relative_decrease > 0 &&
                            decrease <= params_.min_relative_decrease * report.chi2;
       report.chi2 = chi2;
       damping.lambda *= params_.lambda_decrease;
-      if (is_short || is_flat) report.status = SolveStatus::kConverged;
+      if (*is_short || is_flat) report.status = SolveStatus::kConverged;
       return;
     }
     std::swap(values_, before_);
     is_linearized_ = true;
     if (!params_.use_damping) {
       report.status = SolveStatus::kNotFinite;
-    } else if (is_short) {
+    } else if (*is_short) {
       report.status = SolveStatus::kConverged;
     } else {
       damping.lambda *= damping.increase;
@@ -178,6 +204,11 @@ class LeastSquares final : public BackEnd {
 };
 
 }  // namespace
+
+std::vector<std::string> LeastSquaresParams::relations() const {
+  if (linear::linear_solver_from_text(linear)) return {};
+  return {"linear = \"" + linear + "\": expected block or cholmod"};
+}
 
 std::unique_ptr<BackEnd> make_least_squares(const LeastSquaresParams& params) {
   return std::make_unique<LeastSquares>(params);

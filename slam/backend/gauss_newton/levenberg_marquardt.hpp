@@ -3,15 +3,17 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "slam/backend/back_end.hpp"
 #include "slam/core/params.hpp"
-#include "slam/linear/make_linear_solver.hpp"
 
 namespace corridor::backend {
 
 struct LeastSquaresParams {
-  bool use_damping = false;  // false: Gauss-Newton; true: Levenberg-Marquardt
+  // Levenberg-Marquardt instead of Gauss-Newton: what is made, not a number to tune.
+  bool use_damping = false;
   int max_iterations = 20;
   double min_squared_step = 1e-16;      // stop when ||delta||^2 is below (m^2 and rad^2 mixed)
   double min_relative_decrease = 1e-6;  // stop when chi2 falls by less; 0 = never
@@ -19,12 +21,11 @@ struct LeastSquaresParams {
   double lambda_decrease = 0.5;         // after a successful step
   double lambda_increase = 2.0;         // after a failed one; itself doubled at each failure
   int update_iterations = 1;            // iterations of update(), which starts near the optimum
-  // No number to tune: both solve the same equations, block several times faster.
-  linear::LinearSolverKind linear = linear::LinearSolverKind::kBlock;
+  // Both solve the same equations, block several times faster.
+  std::string linear = "block";  // or cholmod
 
   template <class V>
   static void visit(LeastSquaresParams& p, V&& v) {
-    v(ParamInfo{"use_damping", "", "Levenberg-Marquardt instead of Gauss-Newton"}, p.use_damping);
     v(ParamInfo{"max_iterations", "1", "limit of one solve()", 1, 1000}, p.max_iterations);
     v(ParamInfo{"min_squared_step", "1", "stop when the squared norm of the step is below", 0},
       p.min_squared_step);
@@ -37,7 +38,10 @@ struct LeastSquaresParams {
     v(ParamInfo{"lambda_increase", "1", "factor after a failed step, doubled at each failure", 1},
       p.lambda_increase);
     v(ParamInfo{"update_iterations", "1", "limit of one update()", 1, 1000}, p.update_iterations);
+    v(ParamInfo{"linear", "", "factorisation: block or cholmod"}, p.linear);
   }
+  // Broken if there is no such factorisation.
+  [[nodiscard]] std::vector<std::string> relations() const;
 };
 
 // name(): "gauss-newton" or "levenberg".

@@ -120,6 +120,9 @@ class BayesTree {
     return cliques_[static_cast<std::size_t>(number)];
   }
   [[nodiscard]] const std::vector<int>& roots() const { return roots_; }
+  [[nodiscard]] std::size_t num_cliques() const { return cliques_.size() - free_cliques_.size(); }
+  // Doubles taken for fronts, in use or not.
+  [[nodiscard]] std::size_t memory_capacity() const { return memory_.capacity(); }
 
  private:
   Clique& at(int number) { return cliques_[static_cast<std::size_t>(number)]; }

@@ -66,27 +66,27 @@ class Isam2 final : public BackEnd {
   }
 
   BackEndReport solve() override {
+    return update_until_converged({params_.max_iterations, params_.min_relative_decrease});
+  }
+
+  BackEndReport update_until_converged(const ConvergenceBudget& budget) override {
     BackEndReport report;
     if (graph_.num_factors() == 0) return finished(report);
     const Values before_all = estimate();
     report.chi2 = report.chi2_initial = graph_.cost(before_all);
     report.status = SolveStatus::kMaxIterations;
-    while (report.num_iterations < params_.max_iterations) {
-      for (const Key key : linearization_.keys()) mark(index_.of(key));
-      relinearize(report);
-      if (!eliminate(report)) break;
-      is_estimate_current_ = false;
-      ++report.num_iterations;
-      const double before = std::exchange(report.chi2, graph_.cost(estimate()));
-      if (!std::isfinite(report.chi2)) {
-        report.status = SolveStatus::kNotFinite;
-        set_values(before_all);
-        break;
-      }
-      if (std::abs(before - report.chi2) <= params_.min_relative_decrease * report.chi2) {
+    while (report.num_iterations < budget.max_rounds && take_full_step(report)) {
+      const auto num_variables = static_cast<std::int64_t>(linearization_.size());
+      if (is_small_decrement(report.decrement, report.chi2, num_variables, budget)) {
         report.status = SolveStatus::kConverged;
         break;
       }
+    }
+    if (report.status == SolveStatus::kRankDeficient) return finished(report);
+    report.chi2 = graph_.cost(estimate());
+    if (!std::isfinite(report.chi2)) {
+      report.status = SolveStatus::kNotFinite;
+      set_values(before_all);
     }
     return finished(report);
   }
@@ -234,6 +234,19 @@ class Isam2 final : public BackEnd {
     marked_.clear();
   }
 
+  // One Gauss-Newton step of all variables; false where there is none.
+  bool take_full_step(BackEndReport& report) {
+    (void)estimate();
+    for (const Key key : linearization_.keys()) mark(index_.of(key));
+    relinearize(report);
+    is_estimate_current_ = false;
+    report.chi2 = graph_.cost(linearization_);
+    if (!std::isfinite(report.chi2) || !eliminate(report)) return false;
+    report.decrement = report.chi2 - tree_.chi2();
+    ++report.num_iterations;
+    return true;
+  }
+
   void move_to_another_point(int variable) {
     tree_.clear_delta(variable);
     tree_.unsettle(variable);
@@ -347,6 +360,8 @@ class Isam2 final : public BackEnd {
   BackEndReport finished(BackEndReport& report) {
     report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
     report.num_variables = static_cast<std::int64_t>(linearization_.size());
+    report.num_cliques = static_cast<std::int64_t>(tree_.num_cliques());
+    report.front_memory_bytes = static_cast<std::int64_t>(tree_.memory_capacity() * sizeof(double));
     is_estimate_current_ = false;
     return std::move(report);
   }

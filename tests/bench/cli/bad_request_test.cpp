@@ -72,6 +72,10 @@ TEST(BadRequest, UnknownNames) {
                  "run smoke --out o --set karto.buffer_size_scans=50 "
                  "--set karto.buffer_size_scans=60",
                  {"--set: karto.buffer_size_scans is given twice"});
+  expect_refused(folder, "run smoke --system karto --backend isam2 --out o --set isam2.wildfir=1",
+                 {"--set: back-end isam2: unknown parameter wildfir (nearest: wildfire"});
+  expect_refused(folder, "run smoke --system karto --out o --set isam2.wildfire=1",
+                 {"--set: back-end \"isam2\" is not run; expected one of: levenberg"});
   expect_refused(folder, "run smoke --executor slurm --out o", {"slurm", "local"});
   expect_refused(folder, "simulate nowhere --out x.rawlog", {"nowhere"});
   expect_refused(folder, "data verify nowhere", {"nowhere"});

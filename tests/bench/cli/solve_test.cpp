@@ -67,6 +67,82 @@ TEST(Solve, TellsTimesPerUpdateOnlyWhereThereAreUpdates) {
   EXPECT_TRUE(json["init"].is_null());
 }
 
+// A drive along a line that comes back to its start.
+std::string out_and_back() {
+  std::string text;
+  for (int i = 0; i < 12; ++i) text += "VERTEX_SE2 " + std::to_string(i) + " 0 0 0\n";
+  for (int i = 1; i < 12; ++i) {
+    text += "EDGE_SE2 " + std::to_string(i - 1) + " " + std::to_string(i) + (i < 6 ? " 1" : " -1") +
+            " 0 0 1 0 0 1 0 1\n";
+  }
+  return text + "EDGE_SE2 0 11 0.5 0 0 1 0 0 1 0 1\n";
+}
+
+TEST(Solve, SaysWhichEdgesAFixedLagLeftOut) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", out_and_back());
+  const std::string request = "solve t.g2o --backend fixed-lag --mode incremental --json --lag ";
+  const Json narrow = Json::parse(run_program(folder, request + "5").out);
+  EXPECT_EQ(narrow["dropped_edges"], 1);
+  EXPECT_EQ(narrow["parameters"]["lag"], "5");
+  const Json wide = Json::parse(run_program(folder, request + "12").out);
+  EXPECT_EQ(wide["dropped_edges"], 0);
+  EXPECT_LT(wide["chi2"], narrow["chi2"]);
+}
+
+TEST(Solve, GoesOnUntilConvergedWhereAsked) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string request = "solve t.g2o --backend isam2 --mode incremental --json";
+  const Json plain = Json::parse(run_program(folder, request).out);
+  EXPECT_TRUE(plain["converge_s"].is_null());
+  const Answer answer = run_program(folder, request + " --converge");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Json json = Json::parse(answer.out);
+  EXPECT_EQ(json["status"], "converged");
+  EXPECT_GT(json["converge_rounds"], 0);
+  EXPECT_LE(json["chi2"], plain["chi2"]);
+}
+
+TEST(Solve, TakesParametersOfItsBackEnd) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string with = "solve t.g2o --json --backend ";
+  const Answer answer = run_program(folder, with +
+                                                "gauss-newton --set gauss-newton.max_iterations=1 "
+                                                "--set gauss-newton.linear=cholmod");
+  EXPECT_EQ(answer.exit_code, 1) << answer.err;
+  const Json json = Json::parse(answer.out);
+  EXPECT_EQ(json["iterations"], 1);
+  EXPECT_EQ(json["linear"], "cholmod");
+  EXPECT_EQ(json["parameters"]["max_iterations"], "1");
+  expect_refused(folder, with + "isam2 --set isam2.wildfir=1",
+                 {"back-end isam2: unknown parameter wildfir (nearest: wildfire", "list backends"});
+  expect_refused(folder, with + "isam2 --set isam2.wildfire=-1",
+                 {"back-end isam2: wildfire = -1: expected >= 0"});
+  expect_refused(folder, with + "isam2 --set ceres.max_iterations=1",
+                 {"--set: back-end \"ceres\" is not used; expected isam2.key=value"});
+  expect_refused(folder, with + "isam2 --set wildfire=1",
+                 {"--set: \"wildfire=1\" cannot be read; expected NAME.key=value"});
+  expect_refused(folder, with + "levenberg --linear block --set levenberg.linear=block",
+                 {"--set: levenberg.linear is given twice"});
+  expect_refused(folder, with + "levenberg --set levenberg.linear=qr",
+                 {"linear = \"qr\": expected block or cholmod"});
+}
+
+TEST(Solve, RefusesWindowsAndConvergingWhereThereIsNone) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  expect_refused(folder, "solve t.g2o --backend fixed-lag",
+                 {"--backend: a batch solution has no window"});
+  expect_refused(folder, "solve t.g2o --backend isam2 --mode incremental --lag 3",
+                 {"--lag: isam2 forgets no pose; expected --backend fixed-lag with it"});
+  expect_refused(folder, "solve t.g2o --backend fixed-lag --mode incremental --lag 0",
+                 {"back-end fixed-lag: lag = 0: expected 1 to"});
+  expect_refused(folder, "solve t.g2o --backend isam2 --converge",
+                 {"--converge: a batch solution goes on by itself"});
+}
+
 TEST(Solve, RefusesGraphsThatNobodyCanSolve) {
   const ScratchFolder folder;
   const std::string text = kTriangle;

@@ -175,5 +175,17 @@ TEST(Overrides, OfTheCommandLineAreCheckedAgainstTheSystem) {
   EXPECT_FALSE(add_overrides(fresh, {"gmapping.num_particles=0"}));
 }
 
+TEST(Overrides, OfABackEndReachTheCasesThatHaveItAndNoOthers) {
+  Suite suite = *parse(kGood);
+  ASSERT_TRUE(add_overrides(suite, {"isam2.wildfire=0.2"}));
+  const ParamValues with = overrides_of_case(suite, "karto", "isam2");
+  EXPECT_EQ(with.at("isam2.wildfire"), "0.2");
+  EXPECT_FALSE(overrides_of_case(suite, "karto", "ceres").contains("isam2.wildfire"));
+  const CaseOverrides parts = split_overrides(with, "isam2");
+  EXPECT_EQ(parts.back_end, (ParamValues{{"wildfire", "0.2"}}));
+  EXPECT_EQ(parts.system, suite.overrides.at("karto"));
+  EXPECT_FALSE(add_overrides(suite, {"isam2.wildfire=-1"}));
+}
+
 }  // namespace
 }  // namespace corridor::runner

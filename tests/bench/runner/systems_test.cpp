@@ -47,6 +47,19 @@ TEST(BackEnds, AnswerToTheirNameAndHaveParametersWithMeanings) {
   }
 }
 
+TEST(BackEnds, TakeParametersSetByHand) {
+  EXPECT_TRUE(make_back_end("gauss-newton", {}, {{"linear", "cholmod"}}));
+  const auto refused = make_back_end("fixed-lag", {}, {{"wildfir", "1"}, {"lag", "0"}});
+  ASSERT_FALSE(refused.has_value());
+  const std::string line = refused.error().to_line();
+  for (const char* part : {"back-end fixed-lag", "unknown parameter wildfir (nearest: wildfire",
+                           "lag = 0: expected 1 to", "list backends --json"}) {
+    EXPECT_NE(line.find(part), std::string::npos) << part << " in " << line;
+  }
+  // The name decides the method.
+  EXPECT_FALSE(make_back_end("gauss-newton", {}, {{"use_damping", "true"}}));
+}
+
 TEST(Systems, HaveNamesOfTheirOwnAndParametersWithMeanings) {
   std::set<std::string> names;
   for (const SystemInfo& info : systems()) {

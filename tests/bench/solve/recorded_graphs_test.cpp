@@ -40,9 +40,9 @@ class SolvedAtOnce : public RecordedGraphs {};
 class SolvedPoseByPose : public RecordedGraphs {};
 
 TEST_P(SolvedAtOnce, ByGaussNewtonWithBothLinearSolvers) {
-  for (const auto kind : {linear::LinearSolverKind::kBlock, linear::LinearSolverKind::kCholmod}) {
+  for (const char* const linear : {"block", "cholmod"}) {
     backend::LeastSquaresParams params;
-    params.linear = kind;
+    params.linear = linear;
     const auto back_end = backend::make_least_squares(params);
     const auto run = solve_graph(graph_, *back_end, {.init = GetParam().init});
     ASSERT_TRUE(run.has_value()) << run.error().to_line();
