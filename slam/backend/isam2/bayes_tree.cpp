@@ -89,6 +89,11 @@ void BayesTree::for_each_holder(int variable, const Visit& visit) {
   }
 }
 
+void BayesTree::add_factor(std::size_t factor, std::span<const int> variables) {
+  detached_factors_.push_back(factor);
+  for (const int variable : variables) touch(variable);
+}
+
 void BayesTree::touch(int variable) { touch_path(clique_of(variable)); }
 
 void BayesTree::touch_everywhere(int variable) {
@@ -141,6 +146,7 @@ void BayesTree::drop(int number) {
   for (const int variable : clique.frontals()) clique_of_[to_index(variable)] = kNone;
   memory_.give_back(clique.memory,
                     Front::memory_size(clique.front.num_pivots(), clique.front.num_below()));
+  detached_factors_.insert(detached_factors_.end(), clique.factors.begin(), clique.factors.end());
   clique.variables.clear();
   clique.factors.clear();
   clique.num_frontals = 0;
@@ -176,6 +182,7 @@ void BayesTree::attach(const VariableSets& sets, std::span<const std::size_t> fa
     hang(orphans_[k], clique_of_set(factors.size() + k));
   }
   orphans_.clear();
+  detached_factors_.clear();
 }
 
 void BayesTree::hang(int child, int parent) {

@@ -53,6 +53,8 @@ class BayesTree {
   // A variable that no factor holds any more; it must be detached. Its number is given again.
   void forget(int variable);
 
+  // A new factor, by the caller's number; it touches its variables.
+  void add_factor(std::size_t factor, std::span<const int> variables);
   // The clique that eliminates the variable, and all above, are taken out at the next detach().
   void touch(int variable);
   // Every clique that holds the variable, and all above.
@@ -63,13 +65,15 @@ class BayesTree {
   // The unsettled cliques that are not touched, children before parents. Open and close them in
   // this order before detach().
   [[nodiscard]] std::span<const int> unsettled();
-  // Deltas are in step with the linearisation points, but what would be solved now is not.
   [[nodiscard]] bool has_unsettled() const { return num_unsettled_ > 0; }
 
   // Takes the touched cliques out.
   void detach();
   // The variables to eliminate: those of the cliques taken out and those that wait, ascending.
   [[nodiscard]] std::span<const int> detached() const { return detached_; }
+  // The factors of the cliques taken out, and the new ones, in no order. Factors that the caller
+  // has removed since are still among them.
+  [[nodiscard]] std::span<const std::size_t> detached_factors() const { return detached_factors_; }
   // Instead of attach(): the detached variables wait for the next detach().
   void postpone() { waiting_ = detached_; }
   // Plans cliques for the detached variables. sets: the variables of each of the `factors`, all
@@ -135,7 +139,6 @@ class BayesTree {
   void hang(int child, int parent);
   void find_runs(const Clique& child, const Front& front);
   void drop(int clique);
-  void drop_new_cliques();
   void solve(Clique& clique, double threshold, bool& is_changed);
   Eigen::MatrixXd joint_covariance(const Clique& clique, const Eigen::MatrixXd& of_separator) const;
 
@@ -152,6 +155,7 @@ class BayesTree {
   // Of the update under way.
   std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_, open_stack_;
   std::vector<int> unsettled_, holders_;
+  std::vector<std::size_t> detached_factors_;
   VariableSets sets_;
   EliminationOrder order_;
   std::vector<RowRun> runs_;

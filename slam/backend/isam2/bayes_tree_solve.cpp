@@ -27,13 +27,14 @@ void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
   }
   z_.resize(to_index(num_pivots));
   const Column below(below_.data(), num_below);
-  double largest_change = 0;
+  bool is_far = false;
   for (int k = 0; k < num_pivots; ++k) {
     const double* const column = front.pivot_column(k);
     z_[to_index(k)] = column[front.last_row()] - Column(column + num_pivots, num_below).dot(below);
-    largest_change = std::max(largest_change, std::abs(z_[to_index(k)] - front.kept_z()[k]));
+    // Also if either is not a number.
+    is_far = is_far || !(std::abs(z_[to_index(k)] - front.kept_z()[k]) <= threshold);
   }
-  is_changed = !clique.is_solved || largest_change > threshold;
+  is_changed = !clique.is_solved || is_far;
   if (!is_changed) return;
   clique.is_solved = true;
   std::copy(z_.begin(), z_.end(), front.kept_z());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -24,7 +25,6 @@ using graph::FactorId;
 using graph::Key;
 using graph::NewFactor;
 using graph::Values;
-using State = VariableInformation::State;
 
 class Isam2 final : public BackEnd {
  public:
@@ -55,6 +55,11 @@ class Isam2 final : public BackEnd {
     do {
       relinearize(report);
       if (!eliminate(report)) return finished(report);
+      if (!std::isfinite(tree_.chi2())) {
+        report.status = SolveStatus::kNotFinite;
+        return finished(report);
+      }
+      is_frozen_ = false;
       tree_.solve_changed(params_.wildfire);
       mark_far_steps();
       ++report.num_iterations;
@@ -92,13 +97,15 @@ class Isam2 final : public BackEnd {
   }
 
   void set_values(const Values& values) override {
-    if (!tree_.has_unsettled()) tree_.solve_all();
+    if (!is_frozen_) tree_.solve_all();
     for (const Key key : values.keys()) move_to_another_point(index_.of(key));
     linearization_.merge(values);
     is_estimate_current_ = false;
   }
 
-  Result<void> marginalize(std::span<const Key> keys) override {
+  Result<void> marginalize(std::span<const Key> named) override {
+    const std::set<Key> unique(named.begin(), named.end());
+    const std::vector<Key> keys(unique.begin(), unique.end());
     std::set<FactorId> held;
     for (const Key key : keys) {
       if (!index_.contains(key)) {
@@ -113,6 +120,7 @@ class Isam2 final : public BackEnd {
     for (const Key key : keys) tree_.touch_everywhere(index_.of(key));
     for (const FactorId id : removed) remove_factor(id);
     tree_.detach();
+    is_frozen_ = true;
     for (const Key key : keys) forget(key);
     tree_.postpone();
     if (*prior) add_factor(**prior);
@@ -121,7 +129,7 @@ class Isam2 final : public BackEnd {
 
   const Values& estimate() const override {
     if (!is_estimate_current_) {
-      if (!tree_.has_unsettled()) tree_.solve_all();
+      if (!is_frozen_) tree_.solve_all();
       estimate_ = linearization_;
       for (const Key key : linearization_.keys()) {
         estimate_.retract(key, tree_.delta(index_.of(key)));
@@ -133,7 +141,7 @@ class Isam2 final : public BackEnd {
 
   Pose2 pose(std::uint32_t index) override {
     const int variable = index_.of(graph::pose_key(index));
-    if (tree_.clique_of(variable) != BayesTree::kNone && !tree_.has_unsettled()) {
+    if (tree_.clique_of(variable) != BayesTree::kNone && !is_frozen_) {
       tree_.solve_path(variable);
     }
     const double* const delta = tree_.delta(variable);
@@ -149,9 +157,11 @@ class Isam2 final : public BackEnd {
     }
     BackEndReport report;
     if (!eliminate(report)) {
-      return fail(ErrorCode::kInvalid,
-                  "the normal equations are singular at " + graph::to_text(*report.undetermined),
-                  "marginal covariance", "a prior and factors that determine every variable");
+      const std::string where = report.undetermined
+                                    ? "singular at " + graph::to_text(*report.undetermined)
+                                    : "not finite";
+      return fail(ErrorCode::kInvalid, "the normal equations are " + where, "marginal covariance",
+                  "a prior and factors that determine every variable");
     }
     return tree_.covariance(index_.of(key));
   }
@@ -168,11 +178,10 @@ class Isam2 final : public BackEnd {
     index_.add(key, variable);
     if (to_index(variable) >= factors_of_.size()) {
       factors_of_.resize(to_index(variable) + 1);
-      information_.resize(to_index(variable) + 1);
       is_marked_.resize(to_index(variable) + 1, false);
       birth_of_.resize(to_index(variable) + 1);
     }
-    forget_information_of(variable);
+    information_.add_variable(variable);
     birth_of_[to_index(variable)] = num_births_++;
   }
 
@@ -185,10 +194,12 @@ class Isam2 final : public BackEnd {
     has_kernels_ = has_kernels_ || factor.kernel.kind != graph::KernelKind::kNone;
     const FactorId id = graph_.add(std::move(factor));
     variables_of_.set(id, variables_);
+    tree_.add_factor(id, variables_);
     for (const int variable : variables_) {
       factors_of_[to_index(variable)].push_back(id);
-      tree_.touch(variable);
-      forget_information_of(variable);
+      VariableInformation& own = information_[variable];
+      if (own.state != VariableInformation::State::kKnown) continue;
+      add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], own.H);
     }
     return id;
   }
@@ -208,7 +219,7 @@ class Isam2 final : public BackEnd {
     for (const int variable : variables_of_[id]) {
       std::erase(factors_of_[to_index(variable)], id);
       tree_.touch(variable);
-      forget_information_of(variable);
+      information_.forget(variable);
     }
     variables_of_.erase(id);
     is_estimate_current_ = false;
@@ -227,65 +238,47 @@ class Isam2 final : public BackEnd {
       linearization_.retract(index_.keys()[to_index(variable)], tree_.delta(variable));
       move_to_another_point(variable);
       // All its factors are linearised now.
-      information_[to_index(variable)] = {Eigen::Matrix3d::Zero(), State::kBeingSummed};
+      information_.begin_sum(variable);
     }
     report.num_relinearized += static_cast<std::int64_t>(marked_.size());
-    being_summed_.swap(marked_);
     marked_.clear();
   }
 
   // One Gauss-Newton step of all variables; false where there is none.
   bool take_full_step(BackEndReport& report) {
-    (void)estimate();
+    report.chi2 = graph_.cost(estimate());
+    if (!std::isfinite(report.chi2)) return false;
     for (const Key key : linearization_.keys()) mark(index_.of(key));
     relinearize(report);
-    is_estimate_current_ = false;
-    report.chi2 = graph_.cost(linearization_);
-    if (!std::isfinite(report.chi2) || !eliminate(report)) return false;
+    if (!eliminate(report)) return false;
+    is_frozen_ = is_estimate_current_ = false;
     report.decrement = report.chi2 - tree_.chi2();
     ++report.num_iterations;
     return true;
   }
 
   void move_to_another_point(int variable) {
+    is_frozen_ = true;
     tree_.clear_delta(variable);
     tree_.unsettle(variable);
-    forget_information_of(variable);
+    information_.forget(variable);
     // Its neighbours' information changes little, unless a kernel weighs a factor differently.
     if (!has_kernels_) return;
     for (const FactorId id : factors_of_[to_index(variable)]) {
       if (graph_.kernel(id).kind == graph::KernelKind::kNone) continue;
-      for (const int other : variables_of_[id]) forget_information_of(other);
+      for (const int other : variables_of_[id]) information_.forget(other);
     }
   }
 
-  void forget_information_of(int variable) {
-    State& state = information_[to_index(variable)].state;
-    if (state == State::kKnown) state = State::kUnknown;
-  }
-
-  void end_sums(State state) {
-    for (const int variable : being_summed_) information_[to_index(variable)].state = state;
-    being_summed_.clear();
-  }
-
-  // The factors whose variables are all eliminated anew: those that the cliques taken out held.
+  // The factors of the cliques taken out and the new ones, but for those removed since.
   void collect_factors() {
     collected_.clear();
+    std::copy_if(tree_.detached_factors().begin(), tree_.detached_factors().end(),
+                 std::back_inserter(collected_),
+                 [this](FactorId id) { return graph_.contains(id); });
+    std::sort(collected_.begin(), collected_.end());
     sets_.clear();
-    for (const int variable : tree_.detached()) {
-      for (const FactorId id : factors_of_[to_index(variable)]) {
-        const std::vector<int>& variables = variables_of_[id];
-        // Once only: when its variable of the lowest number comes.
-        if (*std::min_element(variables.begin(), variables.end()) != variable) continue;
-        const bool is_whole = std::all_of(variables.begin(), variables.end(), [&](int v) {
-          return tree_.clique_of(v) == BayesTree::kNone;
-        });
-        if (!is_whole) continue;
-        collected_.push_back(id);
-        sets_.add(variables);
-      }
-    }
+    for (const FactorId id : collected_) sets_.add(variables_of_[id]);
   }
 
   // Of the variables that are eliminated, those that came last.
@@ -299,18 +292,20 @@ class Isam2 final : public BackEnd {
     return std::span(newest_).last(num_last);
   }
 
-  // False: rank deficient; the report says where.
+  // False: rank deficient, and the report says where, or not finite.
   bool eliminate(BackEndReport& report) {
+    is_frozen_ = is_frozen_ || tree_.has_unsettled();
     bool is_good = eliminate_each(tree_.unsettled(), report);
     if (is_good) {
       tree_.detach();
       if (!tree_.detached().empty()) {
+        is_frozen_ = true;
         collect_factors();
         tree_.attach(sets_, collected_, newest());
         is_good = eliminate_each(tree_.new_cliques(), report);
       }
     }
-    end_sums(is_good ? State::kKnown : State::kUnknown);
+    information_.end_sums(is_good);
     return is_good;
   }
 
@@ -320,11 +315,16 @@ class Isam2 final : public BackEnd {
       const BayesTree::Clique& clique = tree_.clique(number);
       report.num_eliminated += clique.num_frontals;
       for (const FactorId id : clique.factors) {
-        add_linearized(graph_, id, linearization_, variables_of_[id], tree_, front, information_);
+        add_linearized(graph_, id, linearization_, variables_of_[id], tree_, front,
+                       information_.all());
       }
       if (tree_.close()) continue;
-      report.status = SolveStatus::kRankDeficient;
-      report.undetermined = index_.keys()[to_index(tree_.first_bad_variable())];
+      // What is no number has no good pivot either.
+      report.status = std::isfinite(graph_.cost(linearization_)) ? SolveStatus::kRankDeficient
+                                                                 : SolveStatus::kNotFinite;
+      if (report.status == SolveStatus::kRankDeficient) {
+        report.undetermined = index_.keys()[to_index(tree_.first_bad_variable())];
+      }
       return false;
     }
     return true;
@@ -344,17 +344,14 @@ class Isam2 final : public BackEnd {
 
   // delta^T H_vv delta.
   double squared_step(int variable) {
-    VariableInformation& known = information_[to_index(variable)];
-    const int dimension = tree_.dimension(variable);
-    if (known.state == State::kUnknown) {
-      known.H.setZero();
+    VariableInformation& own = information_[variable];
+    if (own.state == VariableInformation::State::kUnknown) {
+      own = {};
       for (const FactorId id : factors_of_[to_index(variable)]) {
-        add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], known.H);
+        add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], own.H);
       }
-      known.state = State::kKnown;
     }
-    const Eigen::Map<const Eigen::VectorXd> delta(tree_.delta(variable), dimension);
-    return delta.dot(known.H.topLeftCorner(dimension, dimension) * delta);
+    return own.squared_length(tree_.delta(variable), tree_.dimension(variable));
   }
 
   BackEndReport finished(BackEndReport& report) {
@@ -374,14 +371,17 @@ class Isam2 final : public BackEnd {
   mutable BayesTree tree_;  // reading solves what no one has asked for yet
   mutable Values estimate_;
   mutable bool is_estimate_current_ = true;
+  // The tree is ahead of the estimate, which stays what it was: something was moved or eliminated,
+  // and no update has come to its end since.
+  bool is_frozen_ = false;
   bool has_kernels_ = false;  // any factor so far
   // By variable.
   std::vector<std::vector<FactorId>> factors_of_;
-  std::vector<VariableInformation> information_;
+  InformationTable information_;
   std::vector<bool> is_marked_;
   std::vector<std::int64_t> birth_of_;  // when it came, counted in variables
   std::int64_t num_births_ = 0;
-  std::vector<int> marked_, being_summed_;
+  std::vector<int> marked_;
   double largest_step_ = 0;
   // By factor.
   graph::SlotRange<std::vector<int>> variables_of_;

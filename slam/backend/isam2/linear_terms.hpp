@@ -6,17 +6,10 @@
 #include <span>
 
 #include "slam/backend/isam2/bayes_tree.hpp"
+#include "slam/backend/isam2/variable_information.hpp"
 #include "slam/graph/factor_graph.hpp"
 
 namespace corridor::backend {
-
-// H_vv = sum of J_v^T J_v of a variable's factors, in the top left block of its dimension.
-struct VariableInformation {
-  enum class State { kUnknown, kKnown, kBeingSummed };
-
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-  State state = State::kUnknown;
-};
 
 // Linearises a factor and adds J^T J, J^T r and r^T r to the open front of the tree, and J_v^T J_v
 // to the information of those of its variables for which it is being summed. variables: numbers of

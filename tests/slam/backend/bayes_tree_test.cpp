@@ -66,7 +66,7 @@ class LinearProblem {
     LinearFactor factor{variables, Eigen::MatrixXd(num_columns, num_columns),
                         Eigen::VectorXd(num_columns)};
     draw(factor);
-    for (const int variable : variables) tree_.touch(variable);
+    tree_.add_factor(next_id_, variables);
     factors_.emplace(next_id_++, std::move(factor));
   }
 
@@ -91,12 +91,10 @@ class LinearProblem {
     tree_.detach();
     VariableSets sets;
     std::vector<std::size_t> ids;
-    for (const auto& [id, factor] : factors_) {
-      if (!std::ranges::all_of(factor.variables, [&](int v) { return tree_.clique_of(v) < 0; })) {
-        continue;
-      }
+    for (const std::size_t id : tree_.detached_factors()) {
+      if (factors_.count(id) == 0) continue;
       ids.push_back(id);
-      sets.add(factor.variables);
+      sets.add(factors_.at(id).variables);
     }
     const auto detached = tree_.detached();
     tree_.attach(sets, ids, detached.last(std::min(num_last, detached.size())));

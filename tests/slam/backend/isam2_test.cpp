@@ -290,6 +290,32 @@ TEST(Isam2, TheBlankOdometryOfAStraightDriveTouchesNoOldVariable) {
   EXPECT_LE(most_eliminated, 2 * Isam2Params{}.num_last);
 }
 
+TEST(Isam2, AMeasurementThatIsNoNumberIsAStatusAndItsRemovalHeals) {
+  const auto solver = make_isam2({});
+  const auto batch = exact_batch();
+  feed(*solver, *batch, ring(6));
+  batch->solve();
+  const graph::Values before = solver->estimate();
+  const BackEndReport report = solver->update({edge(3, 20, Pose2(NAN, 5, 1))}, {}, {});
+  EXPECT_EQ(report.status, SolveStatus::kNotFinite);
+  EXPECT_LT(largest_difference(solver->estimate(), before), 1e-12);
+  EXPECT_EQ(solver->solve().status, SolveStatus::kNotFinite);
+  EXPECT_LT(largest_difference(solver->estimate(), before), 1e-12);
+  solver->update({}, {}, report.new_factor_ids);
+  EXPECT_EQ(solver->solve().status, SolveStatus::kConverged);
+  EXPECT_LT(largest_difference(solver->estimate(), batch->estimate()), kSameOptimum);
+}
+
+TEST(Isam2, AVariableNamedTwiceIsMarginalisedOnce) {
+  const auto solver = make_isam2({});
+  const auto batch = exact_batch();
+  feed(*solver, *batch, ring(6));
+  solver->solve();
+  ASSERT_TRUE(solver->marginalize(std::vector{pose_key(0), pose_key(1), pose_key(0)}));
+  EXPECT_FALSE(solver->estimate().contains(pose_key(0)));
+  EXPECT_EQ(solver->solve().status, SolveStatus::kConverged);
+}
+
 TEST(Isam2, NothingToSolveIsAStatus) {
   EXPECT_EQ(make_isam2({})->solve().status, SolveStatus::kEmpty);
   EXPECT_EQ(make_isam2({})->update({}, {}, {}).status, SolveStatus::kEmpty);
