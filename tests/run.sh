@@ -32,7 +32,8 @@ fuzz_s=120
 
 # Seconds that the tests of a room may take in the release build, one after another. Those of bench
 # start the program some 400 times, at a third of a second each: it links the libraries of all doors.
-room_budgets_s='slam=100 baselines=100 bench=200 datasets=150 reports=100 tests=60'
+# Those of datasets simulate and read some ten thousand logs to find the noise that was put in.
+room_budgets_s='slam=100 baselines=100 bench=200 datasets=150 reports=100 architecture=60 fuzz=60'
 
 run_tests() {
   local status=0

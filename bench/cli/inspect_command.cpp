@@ -107,7 +107,8 @@ Result<ExitCode> InspectCommand::run() const {
     health.defects.insert(health.defects.begin(),
                           fmt::format("{}: refused as data set {}", line, source->name));
   }
-  const LogReport report{&found->log, &health, &found->robot_keys, companions.num_relations};
+  const LogReport report{&found->log, &health, &found->robot_keys, found->applied_time_offset_s,
+                         companions.num_relations};
   const std::string text =
       is_json ? to_json(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
               : to_text(report);

@@ -113,6 +113,13 @@ std::vector<std::string> assumed_keys(const LogReport& report) {
   return assumed;
 }
 
+std::string remark_on(const formats::RobotEntry& entry, const LogReport& report) {
+  if (!formats::states(*report.robot_keys, entry.path())) return "  # assumed";
+  const bool is_applied = report.applied_time_offset_s != 0;
+  if (!is_applied || entry.path() != "lidar.time_offset_s") return "";
+  return fmt::format("  # {} is applied to the scans", report.applied_time_offset_s);
+}
+
 // As TOML that LOG.robot.toml can start from.
 std::string robot_lines(const LogReport& report) {
   std::string text = "robot model:\n";
@@ -120,9 +127,8 @@ std::string robot_lines(const LogReport& report) {
   for (const formats::RobotEntry& entry : formats::robot_entries(report.log->robot)) {
     if (entry.table != table) text += fmt::format("  [{}]\n", entry.table);
     table = entry.table;
-    const bool is_stated = formats::states(*report.robot_keys, entry.path());
     text += fmt::format("  {} = {}{}\n", entry.key, runner::printable(entry.value),
-                        is_stated ? "" : "  # assumed");
+                        remark_on(entry, report));
   }
   return text;
 }

@@ -15,6 +15,7 @@ struct LogReport {
   const SensorLog* log = nullptr;
   const formats::LogHealth* health = nullptr;
   const formats::RobotKeys* robot_keys = nullptr;  // what is stated of the robot model
+  double applied_time_offset_s = 0;                // was lidar.time_offset_s
   std::optional<std::size_t> num_relations;
 };
 

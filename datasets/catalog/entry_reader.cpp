@@ -217,7 +217,9 @@ class EntryReader {
     if (!table_.contains("topics") && !table_.contains("joints")) return;
     for (const char* key : {"topics", "joints"}) {
       const toml::table* tables = table_[key].as_table();
-      if (tables != nullptr && formats::states_nothing(*tables)) complain(key, "states nothing");
+      if (tables == nullptr || !formats::states_nothing(*tables)) continue;
+      complain(key, "states nothing");
+      return;
     }
     if (entry_.format != "rosbag") {
       complain(table_.contains("topics") ? "topics" : "joints", "only a rosbag has topics");

@@ -247,7 +247,9 @@ Result<StatedRobot> calibrate(ParsedLog& log, const CalibrationSources& sources,
     }
   }
   count_other_noise(stated.robot.lidar, log);
-  if (log.is_time_offset_applied) stated.robot.lidar.time_offset_s = 0;
+  if (log.is_time_offset_applied) {
+    stated.applied_time_offset_s = std::exchange(stated.robot.lidar.time_offset_s, 0);
+  }
   reconcile_scan_duration(log, own_keys, stated, notes);
   const LidarModel& lidar = stated.robot.lidar;
   if (auto good = check_clockwise(log, sources, lidar.scan_duration_s); !good) {

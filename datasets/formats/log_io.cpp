@@ -141,6 +141,7 @@ Result<LogAsFound> read(const std::filesystem::path& path, const ReadLogOptions&
   if (!parsed->left_out.empty()) log.provenance.has_left_out = true;
   log.robot = std::move(stated->robot);
   found.robot_keys = std::move(stated->keys);
+  found.applied_time_offset_s = stated->applied_time_offset_s;
   log.events = std::move(parsed->events);
   if (parsed->has_wheel_ticks_only) {
     auto integrated =

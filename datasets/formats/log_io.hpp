@@ -96,6 +96,8 @@ struct LogAsFound {
   SensorLog log;  // may break every rule that defects() checks
   // Of its robot model, what the log or a calibration states; the other values are assumed.
   RobotKeys robot_keys;
+  // What was lidar.time_offset_s before the reader moved the scans by it.
+  double applied_time_offset_s = 0;
   // Where in the file each event stands, and in what this is counted: "line", "byte".
   std::vector<std::uint64_t> origins;
   std::string origin_unit;

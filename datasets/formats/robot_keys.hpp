@@ -37,6 +37,8 @@ inline bool states_all(const RobotKeys& keys, const auto& paths) {
 struct StatedRobot {
   RobotModel robot;
   RobotKeys keys;
+  // What was lidar.time_offset_s before the reader moved the scans by it.
+  double applied_time_offset_s = 0;
 };
 
 }  // namespace corridor::formats

@@ -85,7 +85,7 @@ TomlProblem out_of_range(const toml::node& node, std::string_view path, std::str
 }
 
 TomlProblem no_table(const toml::node& node, std::string_view path) {
-  return {node.source().begin.line, fmt::format("{} is not a table; expected [{}]", path, path)};
+  return {node.source().begin.line, fmt::format("{} is not a table; expected one", path)};
 }
 
 }  // namespace corridor::formats

@@ -3,10 +3,12 @@
 // headers that only they include, include it.
 #pragma once
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -44,7 +46,7 @@ TomlProblem wrong_type(const toml::node& node, std::string_view path, std::strin
 
 TomlProblem out_of_range(const toml::node& node, std::string_view path, std::string_view expected);
 
-// "wheels is not a table; expected [wheels]".
+// "wheels is not a table; expected one".
 TomlProblem no_table(const toml::node& node, std::string_view path);
 
 // Numbers may be written without a point; nothing else is converted. False = wrong type.
@@ -67,6 +69,17 @@ bool read_value(const toml::node& node, T& value) {
   return true;
 }
 
+// What a whole number that is out of range should have been.
+template <class T>
+std::string room_of() {
+  if constexpr (std::is_integral_v<T>) {
+    return fmt::format("{} from {} to {}", detail::type_name<T>(), std::numeric_limits<T>::min(),
+                       std::numeric_limits<T>::max());
+  } else {
+    return fmt::format("{} that a double holds", detail::type_name<T>());
+  }
+}
+
 // Of the right type and finite, or a problem; the range is not checked here.
 template <class T>
 void read_field(const toml::node& node, std::string_view path, T& field,
@@ -75,7 +88,7 @@ void read_field(const toml::node& node, std::string_view path, T& field,
   if (!read_value(node, found)) {
     const bool is_out_of_range = std::is_arithmetic_v<T> && !std::is_same_v<T, bool> &&
                                  node.is_integer();  // the type is right, there is no room for it
-    problems.push_back(is_out_of_range ? out_of_range(node, path, detail::type_name<T>())
+    problems.push_back(is_out_of_range ? out_of_range(node, path, room_of<T>())
                                        : wrong_type(node, path, detail::type_name<T>()));
     return;
   }

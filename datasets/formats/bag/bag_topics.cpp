@@ -37,7 +37,16 @@ class TopicsReader {
  private:
   void complain(std::string_view table, std::string_view key, std::string_view what) {
     const std::string path = key.empty() ? std::string(table) : path_of(table, key);
-    problems_.push_back({line_of(document_, table, key), fmt::format("{}: {}", path, what)});
+    problems_.push_back({line_for(table, key), fmt::format("{}: {}", path, what)});
+  }
+
+  // What is missing is told in the line of what asks for it.
+  [[nodiscard]] std::uint32_t line_for(std::string_view table, std::string_view key) const {
+    for (const std::string_view place : {table, std::string_view("topics")}) {
+      if (const std::uint32_t line = line_of(document_, place, key); line != 0) return line;
+    }
+    const std::uint32_t line = line_of(document_, "joints", key);
+    return line == 0 ? document_.source().begin.line : line;
   }
 
   void refuse_other_keys(std::string_view table, const std::vector<std::string>& known) {
@@ -60,12 +69,12 @@ class TopicsReader {
   }
 
   std::optional<WheelJoints> joints() {
+    const std::size_t num_problems = problems_.size();
     const auto topic = value<std::string>("topics", "joints");
     if (!topic) {
       if (document_.contains("joints")) complain("topics", "joints", "missing");
       return std::nullopt;
     }
-    const std::size_t num_problems = problems_.size();
     WheelJoints joints{*topic, value<std::string>("joints", "left").value_or(""),
                        value<std::string>("joints", "right").value_or(""),
                        value<std::int64_t>("joints", "ticks_per_turn").value_or(0)};

@@ -146,7 +146,8 @@ class CarmenParser {
 
   void take_flaser(LineReader& reader) {
     log_.scans_state_pose = false;
-    log_.scans_state_range_max = options_.no_return_range_m.has_value();
+    // The model's limit is that of the first scan.
+    if (!has_scans_) log_.scans_state_range_max = options_.no_return_range_m.has_value();
     LaserScan scan;
     const std::size_t num_beams = reader.count("number of ranges", 1, kMaxBeams);
     scan.range_max_m = options_.no_return_range_m.value_or(options_.flaser_range_max_m);
@@ -291,11 +292,13 @@ class CarmenParser {
         last != nullptr && last->stamp == scan.stamp && last->T_odom_base == T_odom_base;
     if (!is_known) log_.add(WheelSample{scan.stamp, T_odom_base, std::nullopt}, line_number_);
     log_.add(std::move(scan), line_number_);
+    has_scans_ = true;
   }
 
   const std::string& file_;
   const CarmenOptions& options_;
   std::uint64_t line_number_ = 0;
+  bool has_scans_ = false;
   DegreeCheck headings_;
   Pose2 last_T_base_lidar_;
   // The lines that state speeds.

@@ -66,9 +66,8 @@ TEST(Inspect, DoesNotCallAssumedWhatLogRobotTomlStates) {
   folder.write("a.clf", kLog);
   folder.write("a.robot.toml", "[wheels]\ntrack_m = 0.35\n[lidar]\nx_m = 0.1\nrange_max_m = 50\n");
   const std::string robot = robot_model_of(run_program(folder, "data inspect a.clf"));
-  for (const char* part :
-       {"\n  track_m = 0.35\n", "\n  left_m_per_tick = 0.0001  # assumed\n", "\n  x_m = 0.1\n",
-        "\n  y_m = 0.0  # assumed\n", "\n  range_max_m = 50.0\n"}) {
+  for (const char* part : {"\n  track_m = 0.35\n", "\n  left_m_per_tick = 0.0001  # assumed\n",
+                           "\n  x_m = 0.1\n", "\n  range_max_m = 50.0\n"}) {
     EXPECT_NE(robot.find(part), std::string::npos) << part << " in " << robot;
   }
   const auto report = nlohmann::json::parse(run_program(folder, "data inspect a.clf --json").out);
@@ -79,6 +78,8 @@ TEST(Inspect, DoesNotCallAssumedWhatLogRobotTomlStates) {
   EXPECT_FALSE(is_assumed("wheels.track_m"));
   EXPECT_FALSE(is_assumed("lidar.range_max_m"));
   EXPECT_TRUE(is_assumed("wheels.left_m_per_tick"));
+  EXPECT_FALSE(is_assumed("lidar.x_m"));
+  EXPECT_TRUE(is_assumed("lidar.y_m"));
 }
 
 TEST(Inspect, DoesNotCallAssumedWhatTheCatalogueStates) {

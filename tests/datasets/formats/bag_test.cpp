@@ -336,7 +336,13 @@ TEST(BagTopics, ListsEveryViolationWithItsLine) {
             "t.toml:7: joints: expected the names of two joints, left and right; "
             "t.toml:10: joints.ticks_per_turn: expected a whole number from 1 to 16777216; "
             "t.toml:5: topics.joints: wheels come from joints or from odometry, not from both");
-  EXPECT_FALSE(bag_topics_from_toml("[joints]\nleft = \"a\"\n", "t.toml").has_value());
+  const auto without_topic = bag_topics_from_toml("\n[joints]\nleft = \"a\"\n", "t.toml");
+  ASSERT_FALSE(without_topic.has_value());
+  EXPECT_EQ(without_topic.error().to_line(), "t.toml:2: topics.joints: missing");
+  const auto without_joints = bag_topics_from_toml("[topics]\njoints = 3\n", "t.toml");
+  ASSERT_FALSE(without_joints.has_value());
+  EXPECT_EQ(without_joints.error().to_line(),
+            "t.toml:2: topics.joints is a whole number; expected text");
   EXPECT_FALSE(bag_topics_from_toml("[topics", "t.toml").has_value());
 }
 

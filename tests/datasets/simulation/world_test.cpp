@@ -157,7 +157,8 @@ TEST(ReadWorld, RefusesAnIntegerThatNoDoubleHolds) {
                                              "[world]\na_m = 9223372036854775807\nb_m = 21\n"
                                              "c_m = 5\nalpha_deg = 90\ndoors_every_m = 0\n"));
   ASSERT_FALSE(world);
-  EXPECT_NE(world.error().to_line().find("w.toml:2: world.a_m is out of range; expected number"),
+  EXPECT_NE(world.error().to_line().find(
+                "w.toml:2: world.a_m is out of range; expected number that a double holds"),
             std::string::npos)
       << world.error().to_line();
 }
