@@ -19,6 +19,11 @@ struct SolveCommand {
   std::optional<std::string> init;
   std::optional<double> width;
   std::optional<int> every;
+  std::optional<double> inlier_probability;
+  std::optional<double> false_closures;
+  std::optional<std::string> false_pairs;
+  std::optional<std::string> seed;
+  std::string rejected;
   std::string out;
   bool is_json = false;
 
