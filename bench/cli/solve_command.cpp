@@ -17,7 +17,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string_view>
-#include <system_error>
 
 #include "bench/cli/solve_closures.hpp"
 #include "bench/cli/staged_files.hpp"
@@ -114,7 +113,8 @@ Result<void> check_robust(const SolveCommand& command) {
                         "without false closures nothing is drawn", "--false-closures with it");
   }
   if (command.rejected.empty()) return {};
-  if (command.rejected == command.out || command.rejected == command.graph) {
+  if (is_same_file(command.rejected, command.out) ||
+      is_same_file(command.rejected, command.graph)) {
     return fail(ErrorCode::kInvalid, "this is the file of a graph", command.rejected,
                 "another name for the list of rejected edges");
   }
@@ -144,8 +144,7 @@ Result<void> check_request(const SolveCommand& command) {
     return fail(ErrorCode::kUnsupported, "unknown kind of graph", command.out,
                 "a name that ends in .g2o, .graph or .toro");
   }
-  std::error_code ignored;
-  if (std::filesystem::equivalent(command.graph, command.out, ignored)) {
+  if (is_same_file(command.graph, command.out)) {
     return fail(ErrorCode::kInvalid, "this is the file that is read", command.out, "another name");
   }
   return check_targets({command.out});

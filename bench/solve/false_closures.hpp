@@ -17,7 +17,7 @@ namespace corridor::solve {
 enum class FalsePairs {
   kRandom,   // two poses anywhere
   kLocal,    // two poses at most kLocalReach poses apart
-  kGrouped,  // runs of kGroupSize successive poses seen against another run: false, and consistent
+  kGrouped,  // runs of kGroupSize successive poses that pass a place that looks like another
 };
 // "random", "local", "grouped".
 std::string_view to_text(FalsePairs pairs);

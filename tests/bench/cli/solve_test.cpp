@@ -108,6 +108,9 @@ TEST(Solve, RefusesRequestsThatMakeNoSense) {
   expect_refused(folder, with + "--robust pcm --width 2", {"--width", "without a kernel"});
   expect_refused(folder, with + "--rejected r.csv", {"--rejected", "--robust with it"});
   expect_refused(folder, with + "--robust gnc --rejected t.g2o", {"t.g2o", "another name"});
+  expect_refused(folder, with + "--robust gnc --rejected ./t.g2o", {"t.g2o", "another name"});
+  expect_refused(folder, with + "--robust gnc --out s.g2o --rejected ./s.g2o",
+                 {"s.g2o", "another name"});
   expect_refused(folder, with + "--robust gnc --inlier-probability 1", {"--inlier-probability"});
   expect_refused(folder, with + "--seed 3", {"--seed", "--false-closures with it"});
   expect_refused(folder, with + "--false-closures 1", {"--false-closures"});
