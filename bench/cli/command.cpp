@@ -58,6 +58,16 @@ Result<void> check_parent_folder(const std::filesystem::path& file) {
               "an existing folder for " + file.filename().string());
 }
 
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  namespace fs = std::filesystem;
+  if (a.empty() || b.empty()) return false;
+  std::error_code ignored;
+  const auto full = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return fs::equivalent(a, b, ignored) || full(a) == full(b);
+}
+
 Result<std::uint64_t> seed_from_text(const std::string& text) {
   std::uint64_t seed = 0;
   const char* end = text.data() + text.size();

@@ -47,6 +47,9 @@ using ExitCode = int;
 // Fails with a clear Error if the folder of a file to be written does not exist.
 Result<void> check_parent_folder(const std::filesystem::path& file);
 
+// Whether two names lead to one file, be it there already or not. An empty name leads nowhere.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 // A seed, all digits of which are used; the Error says the range.
 Result<std::uint64_t> seed_from_text(const std::string& text);
 

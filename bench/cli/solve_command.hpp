@@ -23,6 +23,11 @@ struct SolveCommand {
   std::optional<int> lag;
   std::vector<std::string> overrides;
   bool do_converge = false;
+  std::optional<double> inlier_probability;
+  std::optional<double> false_closures;
+  std::optional<std::string> false_pairs;
+  std::optional<std::string> seed;
+  std::string rejected;
   std::string out;
   bool is_json = false;
 

@@ -9,8 +9,10 @@
 
 #include "bench/runner/process_clock.hpp"
 #include "bench/solve/held_poses.hpp"
+#include "bench/solve/reject_closures.hpp"
 #include "slam/backend/initialization/initialization.hpp"
 #include "slam/backend/initialization/spanning_order.hpp"
+#include "slam/backend/robust/loop_closures.hpp"
 
 namespace corridor::solve {
 namespace {
@@ -30,25 +32,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-struct Problem {
-  formats::GraphProblem graph;  // edges alone
-  std::vector<std::uint32_t> held;
-  std::vector<NewFactor> priors;
-  graph::RobustKernel kernel;
-
-  // An edge by its number in the file.
-  [[nodiscard]] NewFactor edge(graph::FactorId id) const {
-    return graph.factors.visit(id, [this](const auto& factor, const graph::RobustKernel&) {
-      return NewFactor(factor, kernel);
-    });
-  }
-};
-
-Problem problem_of(const formats::PoseGraph& graph, const graph::RobustKernel& kernel) {
-  Problem problem{formats::factor_graph_of(graph), held_poses(graph), {}, kernel};
+Result<Problem> problem_of(const formats::PoseGraph& graph, const SolveOptions& options) {
+  Problem problem{formats::factor_graph_of(graph), held_poses(graph), {}, {}, {}};
   for (graph::PosePrior& prior : priors_on(problem.held, graph, problem.graph.values)) {
     problem.priors.emplace_back(std::move(prior));
   }
+  const graph::FactorId end = problem.graph.factors.end_id();
+  const bool is_for_closures = options.kernel.kind == graph::KernelKind::kDcs;
+  problem.kernels.assign(end, is_for_closures ? graph::RobustKernel() : options.kernel);
+  if (!looks_for_false_closures(options)) return problem;
+  auto closures = backend::loop_closures(problem.graph.factors, problem.graph.values, problem.held);
+  if (!closures) return tl::make_unexpected(closures.error());
+  problem.closures = std::move(*closures);
+  for (const graph::FactorId id : problem.closures) problem.kernels[id] = options.kernel;
   return problem;
 }
 
@@ -82,8 +78,8 @@ void count(const BackEndReport& report, SolveRun& run) {
   run.num_dropped += report.num_dropped_factors;
 }
 
-Result<graph::Values> initial_values(const Problem& problem, Initialization init) {
-  const graph::FactorGraph& factors = problem.graph.factors;
+Result<graph::Values> initial_values(const Problem& problem, const graph::FactorGraph& factors,
+                                     Initialization init) {
   const graph::Values& values = problem.graph.values;
   if (init == Initialization::kOdometry) {
     return backend::odometry_initialization(factors, values, problem.held);
@@ -97,25 +93,33 @@ Result<graph::Values> initial_values(const Problem& problem, Initialization init
   return values;
 }
 
-Result<void> solve_batch(const Problem& problem, BackEnd& back_end, Initialization init,
+Result<void> solve_batch(Problem& problem, BackEnd& back_end, const SolveOptions& options,
                          SolveRun& run) {
   const Clock::time_point start = Clock::now();
-  const Result<graph::Values> values = initial_values(problem, init);
+  if (const auto done = reject_before_solving(options, problem, run); !done) return done;
+  Result<graph::Values> values = run.rejected
+                                     ? initial_values(problem, problem.kept(), options.init)
+                                     : initial_values(problem, problem.graph.factors, options.init);
   if (!values) return tl::make_unexpected(values.error());
   run.init_s = seconds_since(start);
+  run.chi2_initial = problem.chi2(*values, options.num_planted);
+  const bool is_rejection_done = reject_while_solving(options, problem, *values, run);
   back_end.add(problem.priors, *values);
   const graph::FactorId end = problem.graph.factors.end_id();
   for (graph::FactorId first = 0; first < end; first += kFactorsPerCall) {
     std::vector<NewFactor> edges;
     edges.reserve(kFactorsPerCall);
     for (graph::FactorId id = first; id < std::min(first + kFactorsPerCall, end); ++id) {
-      edges.push_back(problem.edge(id));
+      if (!problem.is_rejected(id)) edges.push_back(problem.edge(id));
     }
     back_end.add(std::move(edges), {});
   }
   count(back_end.solve(), run);
   run.total_s = seconds_since(start);
-  run.chi2_initial = problem.graph.factors.chi2(*values);
+  if (!is_rejection_done && run.status == SolveStatus::kConverged) {
+    run.status = SolveStatus::kMaxIterations;
+    run.status_message = "the limit of rounds came before every closure was in or out";
+  }
   return {};
 }
 
@@ -195,14 +199,6 @@ Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end,
   return {};
 }
 
-double cost_of(const Problem& problem, const graph::Values& values) {
-  double sum = 0;
-  for (graph::FactorId id = 0; id < problem.graph.factors.end_id(); ++id) {
-    sum += problem.kernel.cost(problem.graph.factors.chi2(id, values));
-  }
-  return sum;
-}
-
 std::int64_t num_singular(const formats::PoseGraph& graph) {
   return std::count_if(graph.edges.begin(), graph.edges.end(), [](const auto& edge) {
     const Eigen::Matrix3d root = graph::square_root_information(edge.information);
@@ -214,12 +210,14 @@ std::int64_t num_singular(const formats::PoseGraph& graph) {
 
 Result<SolveRun> solve_graph(const formats::PoseGraph& graph, BackEnd& back_end,
                              const SolveOptions& options) {
-  const Problem problem = problem_of(graph, options.kernel);
+  Result<Problem> made = problem_of(graph, options);
+  if (!made) return tl::make_unexpected(made.error());
+  Problem& problem = *made;
   SolveRun run;
   runner::reset_peak_rss();
   const double cpu_before_s = runner::process_cpu_s();
   const Result<void> done = options.mode == Mode::kBatch
-                                ? solve_batch(problem, back_end, options.init, run)
+                                ? solve_batch(problem, back_end, options, run)
                                 : solve_incrementally(problem, back_end, options, run);
   if (!done) return tl::make_unexpected(done.error());
   run.cpu_s = runner::process_cpu_s() - cpu_before_s;
@@ -233,8 +231,11 @@ Result<SolveRun> solve_graph(const formats::PoseGraph& graph, BackEnd& back_end,
     }
   }
   if (options.mode == Mode::kIncremental && has_failed(run.status)) return run;
-  run.chi2 = problem.graph.factors.chi2(back_end.estimate());
-  run.cost = cost_of(problem, back_end.estimate());
+  run.chi2 = problem.chi2(back_end.estimate(), options.num_planted);
+  run.cost = problem.cost(back_end.estimate());
+  if (options.kernel.kind != graph::KernelKind::kNone) {
+    run.rejected = beyond_bound(problem, back_end.estimate(), options.inlier_probability);
+  }
   return run;
 }
 

@@ -9,6 +9,7 @@
 
 #include "datasets/formats/graphs/pose_graph.hpp"
 #include "slam/backend/back_end.hpp"
+#include "slam/backend/robust/graduated_non_convexity.hpp"
 #include "slam/core/result.hpp"
 #include "slam/graph/robust_kernel.hpp"
 
@@ -17,12 +18,28 @@ namespace corridor::solve {
 enum class Mode { kBatch, kIncremental };
 enum class Initialization { kFile, kOdometry, kChordal };
 
+// Finds false loop closures; of kBatch alone, since it looks at all edges at once.
+enum class Rejection {
+  kNone,
+  kGnc,              // graduated non-convexity with the truncated loss [Yang2020]
+  kGncGemanMcClure,  // the same with Geman and McClure's
+  kPcm,              // pairwise consistency maximisation [Mangelson2018]
+};
+
 struct SolveOptions {
   Mode mode = Mode::kBatch;
   Initialization init = Initialization::kFile;  // of kBatch
   int poses_per_update = 1;                     // of kIncremental: the last one always updates
   bool do_converge = false;                     // of kIncremental: after the last pose
-  graph::RobustKernel kernel = {};              // of every edge
+  // Of every edge; kDcs, as published, of the loop closures alone. Not together with a rejection.
+  graph::RobustKernel kernel = {};
+  Rejection rejection = Rejection::kNone;
+  // Of a true closure to be below the bound of kGnc, and to count as such under a kernel; of two
+  // true closures to agree for kPcm.
+  double inlier_probability = backend::GncParams().inlier_probability;
+  backend::MakeBackEnd make_back_end = {};  // for the weighted solutions of kGnc
+  // The last so many edges are false closures that were planted: the chi2 of a run leaves them out.
+  std::size_t num_planted = 0;
 };
 
 struct SolveRun {
@@ -35,11 +52,16 @@ struct SolveRun {
   std::int64_t num_eliminated = 0;
   std::int64_t num_dropped =
       0;  // edges to poses that a back-end has forgotten; in chi2 all the same
-  // Sum of e^T Omega e over the edges, kernels and priors left out; of kBatch also at the start.
+  // Sum of e^T Omega e over the edges, rejected ones too, kernels and priors left out; of kBatch
+  // also at the start.
   // Nothing if kIncremental failed on the way.
   std::optional<double> chi2;
   std::optional<double> chi2_initial;
-  std::optional<double> cost;  // of the edges under their kernels: what was made small
+  // Of the edges under their kernels or weights: what was made small; rejected ones are not in it.
+  std::optional<double> cost;
+  // Loop closures by their number among the edges, ascending: what a rejection found; under a
+  // kernel those whose chi2 is beyond the bound at the solution. Nothing without either.
+  std::optional<std::vector<graph::FactorId>> rejected;
   // From the first pose's value until the solution can be read; reading the file and scoring are
   // outside.
   double total_s = 0;

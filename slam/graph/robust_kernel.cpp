@@ -6,7 +6,8 @@
 namespace corridor::graph {
 
 std::string_view to_text(KernelKind kind) {
-  constexpr std::string_view kNames[] = {"none", "huber", "cauchy", "geman-mcclure"};
+  constexpr std::string_view kNames[] = {"none",          "huber", "cauchy",
+                                         "geman-mcclure", "dcs",   "scaled"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -21,6 +22,10 @@ double RobustKernel::cost(double s) const {
       return k2 * std::log1p(s / k2);
     case KernelKind::kGemanMcClure:
       return s / (1 + s / k2);
+    case KernelKind::kDcs:
+      return s <= k2 ? s : k2 * (3 - 4 / (s / k2 + 1));
+    case KernelKind::kScaled:
+      return k2 * s;
   }
   return s;
 }
@@ -38,6 +43,12 @@ double RobustKernel::weight(double s) const {
       const double ratio = 1 / (1 + s / k2);
       return ratio * ratio;
     }
+    case KernelKind::kDcs: {
+      const double scale = s <= k2 ? 1 : 2 / (1 + s / k2);
+      return scale * scale;
+    }
+    case KernelKind::kScaled:
+      return k2;
   }
   return 1;
 }

@@ -12,9 +12,14 @@ enum class KernelKind {
   kHuber,         // rho = s for s <= k^2, 2 k sqrt(s) - k^2 beyond [Huber1964]
   kCauchy,        // rho = k^2 log(1 + s / k^2)
   kGemanMcClure,  // rho = s / (1 + s / k^2), at most k^2 [GemanMcClure1985]
+  // Dynamic covariance scaling [Agarwal2013]: rho' is the square of the switch in closed form,
+  // min(1, 2 k^2 / (k^2 + s)) (eq. 13, Phi = k^2); so rho = s for s <= k^2,
+  // k^2 (3 s - k^2) / (s + k^2) beyond, at most 3 k^2 [MacTavish2015].
+  kDcs,
+  kScaled,  // rho = k^2 s, k <= 1: a weight that something else has found
 };
 
-// "none", "huber", "cauchy", "geman-mcclure".
+// "none", "huber", "cauchy", "geman-mcclure", "dcs", "scaled".
 std::string_view to_text(KernelKind kind);
 
 struct RobustKernel {

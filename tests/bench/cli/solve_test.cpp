@@ -178,10 +178,56 @@ TEST(Solve, RefusesRequestsThatMakeNoSense) {
     expect_refused(folder, with + "--robust huber --width " + width,
                    {"--width", "\"" + width + "\" is no width"});
   }
-  expect_refused(folder, with + "--robust gnc", {"--robust"});
+  expect_refused(folder, with + "--robust magic", {"--robust"});
+  expect_refused(folder, with + "--robust gnc --mode incremental",
+                 {"--robust", "gnc looks at all edges at once", "--mode batch"});
+  expect_refused(folder, with + "--robust pcm --width 2", {"--width", "without a kernel"});
+  expect_refused(folder, with + "--rejected r.csv", {"--rejected", "--robust with it"});
+  expect_refused(folder, with + "--robust gnc --rejected t.g2o", {"t.g2o", "another name"});
+  expect_refused(folder, with + "--robust gnc --rejected ./t.g2o", {"t.g2o", "another name"});
+  expect_refused(folder, with + "--robust gnc --out s.g2o --rejected ./s.g2o",
+                 {"s.g2o", "another name"});
+  expect_refused(folder, with + "--robust gnc --inlier-probability 1", {"--inlier-probability"});
+  expect_refused(folder, with + "--seed 3", {"--seed", "--false-closures with it"});
+  expect_refused(folder, with + "--false-closures 1", {"--false-closures"});
   expect_refused(folder, with + "--linear qr", {"--linear"});
   expect_refused(folder, with + "--out s.txt", {"s.txt", ".g2o, .graph or .toro"});
   expect_refused(folder, with + "--out t.g2o", {"t.g2o", "the file that is read"});
+}
+
+TEST(Solve, RejectsAFalseClosureAndListsIt) {
+  const ScratchFolder folder;
+  // Poses 0 and 2 are no 9 m apart.
+  folder.write("t.g2o", std::string(kTriangle) + "EDGE_SE2 0 2 9 1 0 1 0 0 1 0 1\n");
+  for (const std::string method : {"gnc", "gnc-geman-mcclure", "pcm", "dcs"}) {
+    const Answer answer =
+        run_program(folder, "solve t.g2o --backend gauss-newton --json --robust " + method +
+                                " --rejected r.csv");
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const Json json = Json::parse(answer.out);
+    EXPECT_EQ(json["rejected_edges"], 1) << method;
+    EXPECT_EQ(json["inlier_probability"], 0.99);
+    EXPECT_TRUE(json["rejection_recall"].is_null());
+    const std::string list = text_of(folder / "r.csv");
+    EXPECT_EQ(list.rfind("edge,pose_i,pose_j,chi2,planted\n3,0,2,", 0), 0u) << list;
+  }
+}
+
+TEST(Solve, ScoresTheRejectionOfPlantedClosuresAndWritesThemWithTheGraph) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string request = "solve t.g2o --backend gauss-newton --json --false-closures 0.5";
+  const Answer answer = run_program(folder, request + " --robust gnc --seed 7 --out s.g2o");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const Json json = Json::parse(answer.out);
+  EXPECT_EQ(json["false_closures"], 1);
+  EXPECT_EQ(json["edges"], 4);
+  EXPECT_TRUE(json.contains("rejection_precision"));
+  EXPECT_FALSE(json["rejection_recall"].is_null());
+  const Json again =
+      Json::parse(run_program(folder, "solve s.g2o --backend gauss-newton --json").out);
+  EXPECT_EQ(again["edges"], 4);
+  EXPECT_TRUE(again["rejected_edges"].is_null());
 }
 
 TEST(Solve, AGraphWithoutASolutionIsAnAnswerThatNamesThePose) {
