@@ -18,13 +18,14 @@
 #include <numeric>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/solve/solve_graph.hpp"
 #include "bench/statistics/quantiles.hpp"
-#include "datasets/catalog/load_dataset.hpp"
+#include "datasets/catalog/load_graph.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 
 namespace corridor::cli {
@@ -197,7 +198,9 @@ std::string to_text(const Json& run) {
 Result<formats::PoseGraph> load(const SolveCommand& command) {
   const Result<catalog::Catalog> known = catalog::known_datasets(command.common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
-  return catalog::load_graph(command.graph, command.common.data_dirs(), *known);
+  auto loaded = catalog::load_graph(command.graph, command.common.data_dirs(), *known);
+  if (!loaded) return tl::make_unexpected(loaded.error());
+  return std::move(loaded->graph);
 }
 
 Result<void> write_solution(const SolveCommand& command, formats::PoseGraph graph,
