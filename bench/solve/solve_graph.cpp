@@ -150,14 +150,14 @@ Result<void> lose(std::uint32_t pose, SolveRun& run) {
   return {};
 }
 
-Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end, int poses_per_update,
-                                 SolveRun& run) {
+Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end,
+                                 const SolveOptions& options, SolveRun& run) {
   const Clock::time_point start = Clock::now();
   const auto order =
       backend::spanning_order(problem.graph.factors, problem.graph.values, problem.held);
   if (!order) return tl::make_unexpected(order.error());
   const auto arrivals = edges_by_arrival(problem, *order);
-  const auto group = static_cast<std::size_t>(poses_per_update);
+  const auto group = static_cast<std::size_t>(options.poses_per_update);
   for (std::size_t first = 0; first < order->size() && !has_failed(run.status); first += group) {
     const std::size_t end = std::min(first + group, order->size());
     std::vector<NewFactor> factors;
@@ -175,9 +175,14 @@ Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end, int 
       if (!T_map_base.is_finite()) return lose((*order)[k].pose, run);
       values.set_pose((*order)[k].pose, T_map_base);
     }
-    count(back_end.update(std::move(factors), values, {}), run);
-    (void)back_end.pose((*order)[end - 1].pose);
+    const BackEndReport report = back_end.update(std::move(factors), values, {});
+    const std::uint32_t newest = (*order)[end - 1].pose;
+    const Pose2 T_map_newest = back_end.pose(newest);
     run.updates_s.push_back(seconds_since(update_start));
+    run.updates.push_back(
+        {newest, T_map_newest, end, report.num_relinearized, report.num_eliminated});
+    count(report, run);
+    if (options.after_update) options.after_update(back_end, run.updates.back());
   }
   run.total_s = seconds_since(start);
   return {};
@@ -206,10 +211,9 @@ Result<SolveRun> solve_graph(const formats::PoseGraph& graph, BackEnd& back_end,
   SolveRun run;
   runner::reset_peak_rss();
   const double cpu_before_s = runner::process_cpu_s();
-  const Result<void> done =
-      options.mode == Mode::kBatch
-          ? solve_batch(problem, back_end, options.init, run)
-          : solve_incrementally(problem, back_end, options.poses_per_update, run);
+  const Result<void> done = options.mode == Mode::kBatch
+                                ? solve_batch(problem, back_end, options.init, run)
+                                : solve_incrementally(problem, back_end, options, run);
   if (!done) return tl::make_unexpected(done.error());
   run.cpu_s = runner::process_cpu_s() - cpu_before_s;
   run.peak_rss_mib = runner::peak_rss_mib();

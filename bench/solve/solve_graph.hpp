@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,11 +18,23 @@ namespace corridor::solve {
 enum class Mode { kBatch, kIncremental };
 enum class Initialization { kFile, kOdometry, kChordal };
 
+// What one update of kIncremental did.
+struct Update {
+  std::uint32_t newest = 0;  // pose, and where the estimate had it right after the update
+  Pose2 T_map_newest;
+  std::size_t num_poses = 0;  // so far
+  std::int64_t num_relinearized = 0;
+  std::int64_t num_eliminated = 0;
+};
+
 struct SolveOptions {
   Mode mode = Mode::kBatch;
   Initialization init = Initialization::kFile;  // of kBatch
   int poses_per_update = 1;                     // of kIncremental
   graph::RobustKernel kernel = {};              // of every edge
+  // Of kIncremental: called after every update, with its own clock stopped. For replays: total_s,
+  // cpu_s and the memory have in them what it does.
+  std::function<void(const backend::BackEnd&, const Update&)> after_update = {};
 };
 
 struct SolveRun {
@@ -44,6 +57,7 @@ struct SolveRun {
   double cpu_s = 0;
   std::optional<double> peak_rss_mib;
   std::vector<double> updates_s;  // of kIncremental: one update() and reading the newest pose
+  std::vector<Update> updates;    // one for each of updates_s
 };
 
 // `back_end` is empty before and has the solution afterwards. The graph's fixed poses are held by
