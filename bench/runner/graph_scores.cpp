@@ -73,7 +73,8 @@ void score_solution(const formats::PoseGraph& graph, const solve::SolveRun& run,
   result.factors = static_cast<std::int64_t>(graph.edges.size());
   result.variables = static_cast<std::int64_t>(graph.vertices.size());
   result.relinearised = run.num_relinearized;
-  result.eliminated = run.num_eliminated;
+  // Solvers that factorise everything anew count no variables.
+  if (run.num_eliminated > 0) result.eliminated = run.num_eliminated;
   result.iterations = run.num_iterations;
   result.chi2 = run.chi2;
   result.chi2_initial = run.chi2_initial;

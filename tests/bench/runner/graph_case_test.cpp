@@ -112,6 +112,7 @@ TEST_F(GraphCase, OfABatchHasChi2AgainstTheBestAndTheErrorAgainstTheTruth) {
   EXPECT_EQ(result.chi2_best_source, "own");
   EXPECT_NEAR(*result.chi2_gap_ratio, 0, 1e-6);
   EXPECT_GT(*result.chi2_initial, *result.chi2);
+  EXPECT_FALSE(result.eliminated.has_value()) << "not counted is not none";
   EXPECT_EQ(result.true_poses, "truth");
   EXPECT_EQ(result.poses_matched, 300);
   // 300 m of a way whose odometry alone strays by metres.
