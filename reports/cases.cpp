@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kOrder = {
-    "dead-reckoning", "dead-reckoning-gyro", "mrpt-icp", "mrpt-rbpf", "gmapping",
-    "karto",          "fusion-paper",        "fusion"};
+constexpr std::array<std::string_view, 10> kOrder = {
+    "dead-reckoning", "dead-reckoning-gyro", "mrpt-icp", "mrpt-rbpf",   "gmapping",
+    "karto",          "fusion-paper",        "fusion",   "graph-batch", "graph-incremental"};
 
 // The profile of what a program's users get; others change something and are named after it.
 constexpr std::string_view kShippedProfile = "shipped";
@@ -130,6 +130,8 @@ Result<void> read_run_dir(const fs::path& run_dir, std::vector<Case>& cases,
 
 }  // namespace
 
+bool is_of_graph(const results::RunResult& result) { return result.data_kind == "graph"; }
+
 Series series_of(const results::RunResult& result) {
   std::string overrides;
   for (const auto& [key, value] : result.overrides.value_or(std::map<std::string, std::string>())) {
@@ -155,6 +157,14 @@ Cases::Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
             [](const auto& left, const auto& right) { return left.machine_id < right.machine_id; });
   machines_.erase(std::unique(machines_.begin(), machines_.end()), machines_.end());
   labels_ = series_labels(cases_);
+}
+
+Cases Cases::only(bool is_graph) const {
+  Cases part = *this;
+  std::erase_if(part.cases_,
+                [&](const Case& entry) { return is_of_graph(entry.result) != is_graph; });
+  part.labels_ = series_labels(part.cases_);
+  return part;
 }
 
 std::vector<std::string> Cases::datasets() const {

@@ -45,6 +45,8 @@ struct World {
   auto operator<=>(const World&) const = default;
 };
 
+// A pose graph was solved; else a system was run on a log.
+bool is_of_graph(const results::RunResult& result);
 Series series_of(const results::RunResult& result);
 World world_of(const results::RunResult& result);
 
@@ -63,6 +65,9 @@ class Cases {
   [[nodiscard]] const std::vector<std::filesystem::path>& run_dirs() const { return run_dirs_; }
   [[nodiscard]] const std::vector<results::Machine>& machines() const { return machines_; }
   [[nodiscard]] std::vector<std::string> datasets() const;
+  // The cases that solved pose graphs, or the others, as a report of their own.
+  [[nodiscard]] Cases of_graphs() const { return only(true); }
+  [[nodiscard]] Cases of_logs() const { return only(false); }
   // In the order of reports: the floor, references, rivals, the fusion systems, then other names;
   // of one system first what it ships with.
   [[nodiscard]] std::vector<Series> series() const;
@@ -72,6 +77,8 @@ class Cases {
   [[nodiscard]] const std::string& label(const Series& series) const { return labels_.at(series); }
 
  private:
+  [[nodiscard]] Cases only(bool is_graph) const;
+
   std::vector<Case> cases_;
   std::vector<results::Machine> machines_;
   std::vector<std::filesystem::path> run_dirs_;

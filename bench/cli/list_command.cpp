@@ -39,15 +39,17 @@ Json names_of(const std::vector<runner::ProfileInfo>& profiles) {
 }
 
 Result<Listing> list_systems(const CommonOptions&) {
-  Listing listing{Json::array(),
-                  {"name", "profiles", "backend", "needs_imu", "needs_wheels", "description"},
-                  ""};
+  Listing listing{
+      Json::array(),
+      {"name", "profiles", "backend", "takes", "needs_imu", "needs_wheels", "description"},
+      ""};
   for (const runner::SystemInfo& info : runner::systems()) {
     listing.items.push_back(
         {{"name", info.name},
          {"description", info.description},
          {"profiles", names_of(info.profiles)},
          {"backend", info.default_backend ? Json(*info.default_backend) : Json(nullptr)},
+         {"takes", info.takes_graphs() ? "graph" : "log"},
          {"needs_imu", info.needs_imu},
          {"needs_wheels", info.needs_wheels},
          {"is_stochastic", info.is_stochastic}});

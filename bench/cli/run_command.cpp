@@ -170,7 +170,10 @@ Result<runner::Suite> RunCommand::requested_suite() const {
     const Result<void> known = runner::check_back_end(name);
     if (!known) return at_option("--backend", known.error());
   }
-  if (!backends.empty()) requested.backends = without_repeats(backends);
+  if (!backends.empty()) {
+    requested.backends = without_repeats(backends);
+    requested.backends_of.clear();
+  }
   if (!datasets.empty()) {
     const Result<void> replaced =
         replace_data(without_repeats(datasets), common.data_dirs(), requested);

@@ -28,7 +28,7 @@ void add_rejection(std::size_t num_edges, const solve::SolveOptions& options,
   json["rejected_edges"] = run.rejected ? Json(run.rejected->size()) : Json();
   json["false_closures"] = options.num_planted;
   solve::RejectionScore score;
-  if (run.rejected && options.num_planted > 0) {
+  if (run.rejected) {
     score = solve::score_of(*run.rejected, num_edges - options.num_planted, num_edges);
   }
   json["rejection_precision"] = score.precision ? Json(*score.precision) : Json();

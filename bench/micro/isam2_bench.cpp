@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/micro/manhattan_walk.hpp"
+#include "datasets/simulation/manhattan_walk.hpp"
 #include "slam/backend/isam2/isam2.hpp"
 #include "slam/graph/factor_graph.hpp"
 
@@ -14,26 +14,18 @@ namespace corridor::backend {
 namespace {
 
 constexpr std::uint32_t kNumPoses = 3500;
-constexpr double kPositionSigma_m = 0.05;
-constexpr double kAngleSigma_rad = 0.02;
 
 // The factors that arrive with every pose; those of pose 0 hold the gauge.
 std::vector<std::vector<graph::NewFactor>> factors_of_a_walk() {
-  Rng rng(1);
-  const micro::ManhattanWalk walk = micro::walk_manhattan(rng, kNumPoses);
-  const Eigen::Matrix3d weight =
-      Eigen::Vector3d(1 / kPositionSigma_m, 1 / kPositionSigma_m, 1 / kAngleSigma_rad).asDiagonal();
+  const simulation::WalkGraph walk = simulation::walk_graph({kNumPoses, 1});
+  const formats::GraphProblem problem = formats::factor_graph_of(walk.graph);
   std::vector<std::vector<graph::NewFactor>> factors(kNumPoses);
-  factors[0].push_back(graph::PosePrior(graph::pose_key(0), walk.true_poses[0], 1e3 * weight));
-  for (const auto& [i, j] : walk.edges) {
-    const Pose2 measured =
-        walk.true_poses[i]
-            .between(walk.true_poses[j])
-            .plus({rng.normal(0, kPositionSigma_m), rng.normal(0, kPositionSigma_m),
-                   rng.normal(0, kAngleSigma_rad)});
-    factors[j].push_back(graph::RelativePose(graph::pose_key(i), graph::pose_key(j), measured,
-                                             weight, graph::RelativePoseError::kComponents));
-  }
+  factors[0].push_back(
+      graph::PosePrior(graph::pose_key(0), walk.true_poses[0], 1e3 * Eigen::Matrix3d::Identity()));
+  problem.factors.for_each(
+      [&]<class F>(graph::FactorId id, const F& factor, const graph::RobustKernel&) {
+        factors[walk.graph.edges[id].j].push_back(factor);
+      });
   return factors;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/micro/manhattan_walk.hpp"
+#include "datasets/simulation/manhattan_walk.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/linear/block_cholesky.hpp"
 #include "slam/linear/front_layout.hpp"
@@ -26,7 +26,7 @@ struct NormalEquationsOfAWalk {
 
   NormalEquationsOfAWalk() {
     Rng rng(1);
-    for (const auto& [i, j] : micro::walk_manhattan(rng, kNumPoses).edges) {
+    for (const auto& [i, j] : simulation::walk_manhattan(rng, kNumPoses).edges) {
       edges.emplace_back(static_cast<int>(j), static_cast<int>(i));
     }
     for (int pose = 0; pose < kNumPoses; ++pose) H.add_variable(3);

@@ -74,6 +74,7 @@ void visit_what(auto& r, auto&& v) {
   v(ResultKey{"profile", "", "named parameter set of the system", false}, r.profile);
   v(ResultKey{"backend", "", "graph back-end, null for systems without one", false}, r.backend);
   v(ResultKey{"dataset", "", "data set, scenario or log file", false}, r.dataset);
+  v(ResultKey{"data_kind", "", "simulated, recorded or graph", false}, r.data_kind);
   v(ResultKey{"data_source", "", "what was loaded: name, or absolute path of a file", false},
     r.data_source);
   v(ResultKey{"data_digest", "", "hash of the log, its truth and calibration, or of the scenario",
@@ -120,6 +121,27 @@ void visit_estimator(auto& r, auto&& v) {
   v(ResultKey{"factors", "1", "factors of the graph at the end"}, r.factors);
   v(ResultKey{"variables", "1", "variables of the graph at the end"}, r.variables);
   v(ResultKey{"relinearised", "1", "variables relinearised, summed over the run"}, r.relinearised);
+  v(ResultKey{"iterations", "1", "iterations of the solver, summed over the run"}, r.iterations);
+  v(ResultKey{"eliminated", "1", "variables eliminated anew, summed over the run"}, r.eliminated);
+  v(ResultKey{"chi2_initial", "1", "chi2 of a graph's initial values"}, r.chi2_initial);
+  v(ResultKey{"chi2_best", "1", "smallest chi2 that is known for the graph", false}, r.chi2_best);
+  v(ResultKey{"chi2_best_source", "", "catalogue, or own: found beside the case", false},
+    r.chi2_best_source);
+  v(ResultKey{"chi2_gap_ratio", "1", "chi2 / chi2_best - 1"}, r.chi2_gap_ratio);
+  v(ResultKey{"run_gap_p50_ratio", "1",
+              "median over a run of chi2 / optimum of the graph so far - 1"},
+    r.run_gap_p50_ratio);
+  v(ResultKey{"run_gap_max_ratio", "1", "largest of the same"}, r.run_gap_max_ratio);
+  v(ResultKey{"run_newest_gap_max_m", "m",
+              "largest distance of the newest pose to where the optimum so far has it"},
+    r.run_newest_gap_max_m);
+  v(ResultKey{"false_closures", "1", "false loop closures that were planted"}, r.false_closures);
+  v(ResultKey{"rejected_closures", "1", "loop closures that the robust method rejected"},
+    r.rejected_closures);
+  v(ResultKey{"rejection_precision", "1", "share of the rejected closures that were false"},
+    r.rejection_precision);
+  v(ResultKey{"rejection_recall", "1", "share of the false closures that were rejected"},
+    r.rejection_recall);
   v(ResultKey{"slip_precision", "1", "share of slip alarms that were true"}, r.slip_precision);
   v(ResultKey{"slip_recall", "1", "share of slip time that was noticed"}, r.slip_recall);
   v(ResultKey{"slip_latency_s", "s", "time from a slip's begin to its alarm"}, r.slip_latency_s);
@@ -132,12 +154,15 @@ void visit_estimator(auto& r, auto&& v) {
 
 void visit_cost(auto& r, auto&& v) {
   v(ResultKey{"stages", "s, us", "exclusive times of the stages"}, r.stages);
-  v(ResultKey{"step_p50_us", "us", "median time of a scan's step"}, r.step_p50_us);
+  v(ResultKey{"step_mean_us", "us", "mean time of an update of a graph"}, r.step_mean_us);
+  v(ResultKey{"step_p50_us", "us", "median time of a scan's step, or of a graph's update"},
+    r.step_p50_us);
   v(ResultKey{"step_p95_us", "us", "95 % quantile of the same"}, r.step_p95_us);
   v(ResultKey{"step_p99_us", "us", "99 % quantile of the same"}, r.step_p99_us);
-  v(ResultKey{"step_max_us", "us", "longest step of a scan"}, r.step_max_us);
-  v(ResultKey{"wall_s", "s", "time in step() and finish()"}, r.wall_s);
-  v(ResultKey{"cpu_s", "s", "processor time in step() and finish(), all threads"}, r.cpu_s);
+  v(ResultKey{"step_max_us", "us", "longest step or update"}, r.step_max_us);
+  v(ResultKey{"init_s", "s", "of wall_s: until a graph has initial values"}, r.init_s);
+  v(ResultKey{"wall_s", "s", "time in step() and finish(), or of solving a graph"}, r.wall_s);
+  v(ResultKey{"cpu_s", "s", "processor time of the same, all threads"}, r.cpu_s);
   v(ResultKey{"peak_rss_mib", "MiB", "largest resident memory while the system ran"},
     r.peak_rss_mib);
   v(ResultKey{"realtime_factor", "1", "duration of the log divided by wall_s"}, r.realtime_factor);

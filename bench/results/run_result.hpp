@@ -75,7 +75,9 @@ struct RunResult {
   std::string suite;
   std::string system, profile;
   std::optional<std::string> backend;
-  std::string dataset;                     // catalogue name, scenario name or file
+  std::string dataset;  // catalogue name, scenario name or file
+  std::optional<std::string>
+      data_kind;  // "simulated", "recorded" or "graph"; null: an older revision
   std::optional<std::string> data_source;  // what was loaded: name, or absolute path of the file
   std::optional<std::string> data_digest;  // of the log and its truth, or the scenario's values
   // What poses are compared with: "truth", or "reference", poses that another program found; null:
@@ -113,13 +115,25 @@ struct RunResult {
   std::optional<std::int64_t> nees_dof;
   std::optional<double> chi2;
   std::optional<std::int64_t> factors, variables, relinearised;
+  // Of cases that solve a graph.
+  std::optional<std::int64_t> iterations, eliminated;
+  std::optional<double> chi2_initial;
+  std::optional<double> chi2_best;              // the smallest that is known
+  std::optional<std::string> chi2_best_source;  // "catalogue", or "own": found beside the case
+  std::optional<double> chi2_gap_ratio;         // chi2 / chi2_best - 1
+  // To the optimum of the graph so far, over the checkpoints of an incremental run.
+  std::optional<double> run_gap_p50_ratio, run_gap_max_ratio, run_newest_gap_max_m;
+  // Of graphs into which false closures were planted, or where something looked for them.
+  std::optional<std::int64_t> false_closures, rejected_closures;
+  std::optional<double> rejection_precision, rejection_recall;
   std::optional<double> slip_precision, slip_recall, slip_latency_s;
   std::optional<double> degeneracy_precision, degeneracy_recall;
   std::map<std::string, double> counters;  // SlamEstimate::counters as given
 
   // cost: step() and finish() only
   std::vector<StageTimes> stages;
-  std::optional<double> step_p50_us, step_p95_us, step_p99_us, step_max_us;
+  std::optional<double> step_mean_us, step_p50_us, step_p95_us, step_p99_us, step_max_us;
+  std::optional<double> init_s;  // of wall_s: until a graph has initial values
   std::optional<double> wall_s, cpu_s, peak_rss_mib, realtime_factor;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -13,8 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view to_text(DataKind kind) {
-  return kind == DataKind::kSimulated ? "simulated" : "recorded";
+constexpr std::array kDataKinds = {DataKind::kSimulated, DataKind::kRecorded, DataKind::kGraph};
+
+std::optional<DataKind> data_kind_from(std::string_view text) {
+  for (const DataKind kind : kDataKinds) {
+    if (to_text(kind) == text) return kind;
+  }
+  return std::nullopt;
 }
 
 // What decides the estimate.
@@ -91,6 +97,11 @@ class Reader {
 
 }  // namespace
 
+std::string_view to_text(DataKind kind) {
+  if (kind == DataKind::kGraph) return "graph";
+  return kind == DataKind::kSimulated ? "simulated" : "recorded";
+}
+
 std::string case_id(const CaseSpec& spec) {
   std::string name = safe(spec.dataset);
   name += fmt::format("-s{}", spec.data_seed.value_or(spec.system_seed));
@@ -129,10 +140,9 @@ Result<CaseSpec> case_spec_from_json(std::string_view text, std::string_view whe
   reader.take("threads", spec.threads);
   reader.take("limits", limits);
   reader.take("data_digest", spec.data_digest);
-  if (kind != "simulated" && kind != "recorded") {
-    reader.problem(R"(data_kind is neither "simulated" nor "recorded")");
-  }
-  spec.data_kind = kind == "recorded" ? DataKind::kRecorded : DataKind::kSimulated;
+  const std::optional<DataKind> known_kind = data_kind_from(kind);
+  if (!known_kind) reader.problem("data_kind is none of simulated, recorded, graph");
+  spec.data_kind = known_kind.value_or(DataKind::kRecorded);
   if (spec.data_kind == DataKind::kSimulated && !spec.data_seed) {
     reader.problem("simulated data need a data_seed");
   }

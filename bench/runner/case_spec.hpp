@@ -16,7 +16,10 @@ namespace corridor::runner {
 enum class DataKind {
   kSimulated,  // a scenario and a seed
   kRecorded,   // a log, by catalogue name or path
+  kGraph,      // a pose graph, by catalogue name, name of a walk, or path
 };
+// "simulated", "recorded", "graph".
+std::string_view to_text(DataKind kind);
 
 struct CaseLimits {
   double time_s = 600;             // wall time of the whole case, reading and scoring included

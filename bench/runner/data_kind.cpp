@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "datasets/catalog/load_graph.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "slam/core/nearest_names.hpp"
 
@@ -44,6 +45,7 @@ Result<DataKind> kind_of_data(const std::string& name_or_path, const catalog::Ca
   }
   const std::string name = simulation::without_member(name_or_path);
   if (fs::path(name).extension() == ".toml" || is_scenario_name(name)) return DataKind::kSimulated;
+  if (catalog::is_graph_name(name_or_path, known)) return DataKind::kGraph;
   std::error_code ignored;
   if (known.find(name_or_path) != nullptr || fs::exists(name_or_path, ignored)) {
     return DataKind::kRecorded;

@@ -1,4 +1,4 @@
-// What a name that is given as data means: a scenario to simulate, or a recording.
+// What a name that is given as data means: a scenario to simulate, a recording, or a pose graph.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace corridor::runner {
 Result<void> check_one_meaning(const std::string& name_or_path, const catalog::Catalog& known);
 
 // Simulated: a scenario's name or .toml file, with or without a family's member. Recorded: a data
-// set's name, or a file. The Error for what is none of them says the nearest names.
+// set's name, or a file. Graph: likewise, by its format or suffix, and the name of a walk. The
+// Error for what is none of them says the nearest names.
 Result<DataKind> kind_of_data(const std::string& name_or_path, const catalog::Catalog& known);
 
 }  // namespace corridor::runner

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <algorithm>
 #include <optional>
-#include <sstream>
 
 #include "bench/results/digest.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/data_kind.hpp"
 #include "bench/runner/name_data.hpp"
 #include "bench/runner/systems.hpp"
+#include "datasets/catalog/load_graph.hpp"
 #include "datasets/simulation/scenario.hpp"
 
 namespace corridor::runner {
@@ -47,12 +47,26 @@ Result<DataItem> dataset_item(const std::string& source, const catalog::DataDirs
                   loaded->digest, sensors_of(loaded->log)};
 }
 
+Result<DataItem> graph_item(const std::string& source, const catalog::DataDirs& dirs,
+                            const catalog::Catalog& known) {
+  const Result<catalog::LoadedGraph> loaded = catalog::load_graph(source, dirs, known);
+  if (!loaded) return tl::make_unexpected(loaded.error());
+  const bool is_name = loaded->name == source;
+  return DataItem{DataKind::kGraph,
+                  loaded->name,
+                  is_name ? source : absolute_source(source),
+                  loaded->digest,
+                  {}};
+}
+
 class Planner {
  public:
   Planner(const Suite& suite, const PlanOptions& options) : suite_(suite), options_(options) {}
 
   Result<Plan> plan(const catalog::DataDirs& dirs) {
-    if (const Result<void> clear = check_names(dirs); !clear) {
+    const Result<catalog::Catalog> known = catalog::known_datasets(dirs);
+    if (!known) return tl::make_unexpected(known.error());
+    if (const Result<void> clear = check_names(*known); !clear) {
       return tl::make_unexpected(clear.error());
     }
     for (const std::string& source : suite_.scenarios) {
@@ -65,7 +79,9 @@ class Planner {
       }
     }
     for (const std::string& source : suite_.datasets) {
-      const Result<DataItem> item = dataset_item(source, dirs);
+      const bool is_graph = catalog::is_graph_name(source, *known);
+      const Result<DataItem> item =
+          is_graph ? graph_item(source, dirs, *known) : dataset_item(source, dirs);
       if (item) {
         items_.push_back(*item);
       } else if (options_.must_load_data) {
@@ -74,22 +90,21 @@ class Planner {
         plan_.skipped.push_back(fmt::format("{}: skipped: {}", source, item.error().to_line()));
       } else {
         // Broken data are a row of every system, not a gap.
-        items_.push_back({DataKind::kRecorded, source, source, "", {}});
+        items_.push_back(
+            {is_graph ? DataKind::kGraph : DataKind::kRecorded, source, source, "", {}});
       }
     }
     for (const DataItem& item : with_own_names(std::move(items_))) {
-      item.kind == DataKind::kSimulated ? add_simulated(item) : add_recorded(item);
+      item.kind == DataKind::kSimulated ? add_simulated(item) : add_given(item);
     }
     return std::move(plan_);
   }
 
  private:
-  [[nodiscard]] Result<void> check_names(const catalog::DataDirs& dirs) const {
-    const Result<catalog::Catalog> known = catalog::known_datasets(dirs);
-    if (!known) return tl::make_unexpected(known.error());
+  [[nodiscard]] Result<void> check_names(const catalog::Catalog& known) const {
     for (const auto* sources : {&suite_.scenarios, &suite_.datasets}) {
       for (const std::string& source : *sources) {
-        if (const Result<void> clear = check_one_meaning(source, *known); !clear) return clear;
+        if (const Result<void> clear = check_one_meaning(source, known); !clear) return clear;
       }
     }
     return {};
@@ -102,7 +117,8 @@ class Planner {
     }
   }
 
-  void add_recorded(const DataItem& item) {
+  // A recorded log, or a graph: every seed is a repeat, for those whom it matters to.
+  void add_given(const DataItem& item) {
     for (int i = 0; i < suite_.num_seeds; ++i) {
       const std::uint64_t seed = suite_.first_seed + static_cast<std::uint64_t>(i);
       for (const SystemChoice& choice : suite_.systems) {
@@ -115,10 +131,8 @@ class Planner {
   void add(const DataItem& item, const SystemChoice& choice, std::optional<std::uint64_t> data_seed,
            std::uint64_t system_seed) {
     const Result<SystemInfo> info = find_system(choice.system);
-    if (const auto missing = missing_sensor(*info, item.sensors)) {
-      const std::string line = fmt::format("{} on {}: skipped: needs {}, and the log has none",
-                                           choice.system, item.name, *missing);
-      if (plan_.skipped.empty() || plan_.skipped.back() != line) plan_.skipped.push_back(line);
+    if (const auto reason = why_not(*info, item)) {
+      skip(fmt::format("{} on {}: skipped: {}", choice.system, item.name, *reason));
       return;
     }
     CaseSpec spec;
@@ -133,17 +147,33 @@ class Planner {
     spec.threads = suite_.threads;
     spec.limits = suite_.limits;
     spec.data_digest = item.digest;
-    if (!info->default_backend || suite_.backends.empty()) {
+    const std::vector<std::string>& backends = suite_.backends_for(choice);
+    if (!info->default_backend || backends.empty()) {
       spec.backend = info->default_backend;
       spec.overrides = overrides_of_case(suite_, choice.system, spec.backend);
       plan_.cases.push_back(spec);
       return;
     }
-    for (const std::string& backend : suite_.backends) {
+    for (const std::string& backend : backends) {
       spec.backend = backend;
       spec.overrides = overrides_of_case(suite_, choice.system, spec.backend);
       plan_.cases.push_back(spec);
     }
+  }
+
+  static std::optional<std::string> why_not(const SystemInfo& info, const DataItem& item) {
+    const bool is_graph = item.kind == DataKind::kGraph;
+    if (is_graph && !info.takes_graphs()) return "needs a log, and this is a pose graph";
+    if (!is_graph && info.takes_graphs()) return "needs a pose graph, and this is a log";
+    const auto missing = missing_sensor(info, item.sensors);
+    if (!missing) return std::nullopt;
+    return fmt::format("needs {}, and the log has none", *missing);
+  }
+
+  // Once, though every seed and profile meets it again.
+  void skip(const std::string& line) {
+    auto& lines = plan_.skipped;
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   }
 
   const Suite& suite_;

@@ -22,6 +22,9 @@ std::string duration_text(double seconds) {
 
 // The one number that says most about a case.
 std::string headline(const results::RunResult& result) {
+  if (result.chi2_gap_ratio) {
+    return fmt::format(", chi2 {:.6g}, {:+.1e} of the best", *result.chi2, *result.chi2_gap_ratio);
+  }
   if (result.final_scores.position_rmse_m) {
     return fmt::format(", position RMSE {:.3f} m", *result.final_scores.position_rmse_m);
   }
@@ -62,10 +65,10 @@ void Progress::note(const std::string& line) {
 
 void Progress::case_done(const results::RunResult& result, double case_wall_s) {
   ++num_done_;
-  std::string name = fmt::format("{}{} {}", result.dataset,
+  std::string name = fmt::format("{}{} {}@{}", result.dataset,
                                  result.data_seed ? fmt::format(" seed {}", *result.data_seed)
                                                   : fmt::format(" seed {}", result.system_seed),
-                                 result.system);
+                                 result.system, result.profile);
   if (result.backend) name += " " + *result.backend;
   note(fmt::format("[{}/{}] {}: {}{}, {:.1f} s{}{}", num_done_, num_cases_, name,
                    to_text(result.status), headline(result), case_wall_s,

@@ -19,6 +19,7 @@
 #include "bench/runner/drive.hpp"
 #include "bench/runner/git_revision.hpp"
 #include "bench/runner/overrides.hpp"
+#include "bench/runner/run_graph_case.hpp"
 #include "bench/runner/systems.hpp"
 #include "slam/mapping/occupancy_mapper.hpp"
 
@@ -31,6 +32,10 @@ using results::RunResult;
 Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const CaseData& data) {
   const Result<SystemInfo> info = find_system(spec.system);
   if (!info) return tl::make_unexpected(info.error());
+  if (info->takes_graphs()) {
+    return fail(ErrorCode::kInvalid, fmt::format("system {} needs a pose graph", spec.system),
+                spec.dataset, "data_kind graph");
+  }
   if (const auto missing = missing_sensor(*info, sensors_of(data.log))) {
     return fail(ErrorCode::kInvalid, fmt::format("system {} needs {}", spec.system, *missing),
                 spec.dataset, "a log with readings of each sensor that it needs");
@@ -183,6 +188,7 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
   result.profile = spec.profile;
   result.backend = spec.backend;
   result.dataset = spec.dataset;
+  result.data_kind = std::string(to_text(spec.data_kind));
   result.data_source = spec.data_source;
   if (!spec.data_digest.empty()) result.data_digest = spec.data_digest;
   result.data_seed = spec.data_seed;
@@ -210,6 +216,7 @@ RunResult record_of(const CaseSpec& spec, std::optional<int> jobs) {
 tl::expected<RunResult, CaseFailure> run_case(const CaseSpec& spec, const catalog::DataDirs& dirs,
                                               const std::filesystem::path& out,
                                               std::optional<int> jobs) {
+  if (spec.data_kind == DataKind::kGraph) return run_graph_case(spec, dirs, out, jobs);
   const Result<CaseData> data = load_case_data(spec, dirs);
   if (!data) return tl::make_unexpected(CaseFailure{data.error()});
   const Result<std::unique_ptr<SlamSystem>> system = make_system(spec, *data);

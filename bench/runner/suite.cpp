@@ -44,6 +44,7 @@ class Parser {
       problem(table, R"(neither "scenarios" nor "datasets" names any data)");
     }
     check_all_overrides(table);
+    check_backends_of(table);
     if (problems_.empty()) return suite_;
     return fail(ErrorCode::kInvalid, join(problems_));
   }
@@ -61,7 +62,9 @@ class Parser {
     else if (key == "systems")
       take_systems(node);
     else if (key == "backends")
-      take_backends(node);
+      suite_.backends = take_backends(key, node);
+    else if (key == "backends_of")
+      take_backends_of(node);
     else if (key == "scenarios")
       suite_.scenarios = take_texts(key, node);
     else if (key == "datasets")
@@ -77,9 +80,11 @@ class Parser {
     else if (key == "overrides")
       take_overrides(node);
     else
-      problem(node, fmt::format(R"(unknown key "{}" (known: name description systems backends )"
-                                "scenarios datasets first_seed num_seeds threads limits overrides)",
-                                key));
+      problem(node,
+              fmt::format(
+                  R"(unknown key "{}" (known: name description systems backends )"
+                  "backends_of scenarios datasets first_seed num_seeds threads limits overrides)",
+                  key));
   }
 
   void take_text(std::string_view key, const toml::node& node, std::string& text) {
@@ -126,13 +131,28 @@ class Parser {
     }
   }
 
-  void take_backends(const toml::node& node) {
-    for (const std::string& text : take_texts("backends", node)) {
+  std::vector<std::string> take_backends(std::string_view key, const toml::node& node) {
+    std::vector<std::string> backends;
+    for (const std::string& text : take_texts(key, node)) {
       const Result<void> known = check_back_end(text);
       if (known)
-        suite_.backends.push_back(text);
+        backends.push_back(text);
       else
         problem(node, known.error().to_line());
+    }
+    return backends;
+  }
+
+  void take_backends_of(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return problem(node, "backends_of: expected a table");
+    for (const auto& [system, value] : *table) {
+      const Result<SystemChoice> choice = parse_system_choice(system.str());
+      if (!choice) {
+        problem(value, "backends_of: " + choice.error().to_line());
+        continue;
+      }
+      suite_.backends_of.emplace_back(*choice, take_backends("backends_of", value));
     }
   }
 
@@ -199,12 +219,32 @@ class Parser {
     }
   }
 
+  void check_backends_of(const toml::table& table) {
+    const toml::node* node = table.get("backends_of");
+    for (const auto& [choice, backends] : suite_.backends_of) {
+      const auto& run = suite_.systems;
+      if (std::find(run.begin(), run.end(), choice) == run.end()) {
+        problem(*node, fmt::format("backends_of: the suite does not run {}@{}", choice.system,
+                                   choice.profile));
+      } else if (!find_system(choice.system)->default_backend) {
+        problem(*node, fmt::format("backends_of: {} takes no back-end", choice.system));
+      }
+    }
+  }
+
   std::string file_;
   Suite suite_;
   std::vector<std::string> problems_;
 };
 
 }  // namespace
+
+const std::vector<std::string>& Suite::backends_for(const SystemChoice& choice) const {
+  for (const auto& [system, own] : backends_of) {
+    if (system == choice) return own;
+  }
+  return backends;
+}
 
 Result<Suite> read_suite(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/runner/case_spec.hpp"
@@ -19,7 +20,9 @@ struct Suite {
   std::string name;
   std::string description;
   std::vector<SystemChoice> systems;
-  std::vector<std::string> backends;   // empty: each system's own
+  std::vector<std::string> backends;  // empty: each system's own
+  // Other ones for some of the systems: what solves at once need not be fed pose by pose.
+  std::vector<std::pair<SystemChoice, std::vector<std::string>>> backends_of;
   std::vector<std::string> scenarios;  // names or paths
   std::vector<std::string> datasets;   // catalogue names or paths
   // Scenarios are drawn with seeds first_seed, first_seed + 1, ...; recorded data are run with as
@@ -29,11 +32,15 @@ struct Suite {
   int threads = 1;
   CaseLimits limits;
   std::map<std::string, ParamValues> overrides;  // by system or back-end
+
+  // Empty: the system's own.
+  [[nodiscard]] const std::vector<std::string>& backends_for(const SystemChoice& choice) const;
 };
 
 // Keys: name description systems backends scenarios datasets first_seed num_seeds threads,
-// [limits] time_s memory_mib, [overrides.NAME] parameter = value, NAME a system or back-end. The
-// Error lists ALL unknown keys, wrong types, unknown names and broken rules, each as file:line.
+// [limits] time_s memory_mib, [overrides.NAME] parameter = value, NAME a system or back-end,
+// [backends_of] "SYSTEM" or "SYSTEM@PROFILE" = [names]. The Error lists ALL unknown keys, wrong
+// types, unknown names and broken rules, each as file:line.
 Result<Suite> read_suite(const std::filesystem::path& path);
 
 // bench/suites/ of the source tree; $CORRIDOR_BENCH_SUITES overrides.

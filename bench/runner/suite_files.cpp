@@ -50,8 +50,9 @@ std::vector<std::string> back_ends_of(const Suite& suite) {
   for (const SystemChoice& choice : suite.systems) {
     const Result<SystemInfo> info = find_system(choice.system);
     if (!info || !info->default_backend) continue;
-    if (suite.backends.empty()) add(*info->default_backend);
-    for (const std::string& name : suite.backends) add(name);
+    const std::vector<std::string>& own = suite.backends_for(choice);
+    if (own.empty()) add(*info->default_backend);
+    for (const std::string& name : own) add(name);
   }
   return names;
 }

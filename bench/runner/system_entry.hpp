@@ -18,9 +18,9 @@ struct Profile {
   P params;
 };
 
-// `Make` is called as make(params, request) and returns Result<std::unique_ptr<SlamSystem>>.
-template <class P, class Make>
-void set_factory(SystemInfo& info, const std::vector<Profile<P>>& profiles, Make make) {
+// The entry's profiles and parameters. Returns params_of(profile, overrides) -> Result<P>.
+template <class P>
+auto set_profiles(SystemInfo& info, const std::vector<Profile<P>>& profiles) {
   for (const Profile<P>& profile : profiles) {
     info.profiles.push_back({profile.name, profile.description});
   }
@@ -44,11 +44,29 @@ void set_factory(SystemInfo& info, const std::vector<Profile<P>>& profiles, Make
     if (!params) return tl::make_unexpected(params.error());
     return param_values(*params);
   };
-  info.make = [params_of, make = std::move(make)](
+  return params_of;
+}
+
+// `Make` is called as make(params, request) and returns Result<std::unique_ptr<SlamSystem>>.
+template <class P, class Make>
+void set_factory(SystemInfo& info, const std::vector<Profile<P>>& profiles, Make make) {
+  info.make = [params_of = set_profiles(info, profiles), make = std::move(make)](
                   const SystemRequest& request) -> Result<std::unique_ptr<SlamSystem>> {
     const Result<P> params = params_of(request.profile, request.overrides);
     if (!params) return tl::make_unexpected(params.error());
     return make(*params, request);
+  };
+}
+
+// An entry that is given graphs.
+template <class P>
+void set_graph_task(SystemInfo& info, const std::vector<Profile<P>>& profiles) {
+  info.graph_task = [params_of = set_profiles(info, profiles)](
+                        const std::string& profile,
+                        const ParamValues& overrides) -> Result<GraphTask> {
+    const Result<P> params = params_of(profile, overrides);
+    if (!params) return tl::make_unexpected(params.error());
+    return task_of(*params);
   };
 }
 

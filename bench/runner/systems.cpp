@@ -128,6 +128,56 @@ SystemInfo fusion_entry() {
   return info;
 }
 
+SystemInfo graph_batch_entry() {
+  SystemInfo info;
+  info.name = "graph-batch";
+  info.description = "a pose graph solved at once by a back-end";
+  info.default_backend = "gauss-newton";
+  info.is_stochastic = true;
+  using P = GraphBatchParams;
+  // A heading's noise is what decides; a position's is that of a robot a few metres off its way.
+  const auto near = [](double heading_sigma_rad) {
+    return P{.start = "optimum",
+             .start_position_sigma_m = 10 * heading_sigma_rad,
+             .start_heading_sigma_rad = heading_sigma_rad};
+  };
+  std::vector<Profile<P>> profiles = {
+      {"file", "from the file's poses", {}},
+      {"odometry", "from chained edges", {.start = "odometry"}},
+      {"chordal", "from chordal relaxation", {.start = "chordal"}},
+      {"near-0.05", "from the optimum with noise of 0.05 rad and 0.5 m", near(0.05)},
+      {"near-0.1", "from the optimum with noise of 0.1 rad and 1 m", near(0.1)},
+      {"near-0.2", "from the optimum with noise of 0.2 rad and 2 m", near(0.2)},
+      {"near-0.4", "from the optimum with noise of 0.4 rad and 4 m", near(0.4)},
+      {"near-0.8", "from the optimum with noise of 0.8 rad and 8 m", near(0.8)}};
+  for (const char* robust : {"none", "huber", "dcs", "gnc", "pcm"}) {
+    for (const int percent : {0, 10, 20, 30, 40, 50}) {
+      P params{.start = "odometry"};
+      params.robust = robust;
+      params.false_closures = percent / 100.0;
+      profiles.push_back({fmt::format("{}-false-{}", robust, percent),
+                          fmt::format("from chained edges, {} % of the closures false, robust = {}",
+                                      percent, robust),
+                          params});
+    }
+  }
+  set_graph_task<P>(info, profiles);
+  return info;
+}
+
+SystemInfo graph_incremental_entry() {
+  SystemInfo info;
+  info.name = "graph-incremental";
+  info.description = "a pose graph that comes pose by pose, as it would to a robot";
+  info.default_backend = "isam2";
+  info.is_stochastic = true;
+  using P = GraphIncrementalParams;
+  set_graph_task<P>(info,
+                    {{"each", "an update for every pose", {}},
+                     {"every-10", "an update for every tenth pose", {.poses_per_update = 10}}});
+  return info;
+}
+
 template <class T>
 std::string names_of(const std::vector<T>& items) {
   std::string names;
@@ -160,7 +210,9 @@ std::vector<SystemInfo> systems() {
           mrpt_icp_entry(),
           mrpt_rbpf_entry(),
           fusion_paper_entry(),
-          fusion_entry()};
+          fusion_entry(),
+          graph_batch_entry(),
+          graph_incremental_entry()};
 }
 
 Result<SystemInfo> find_system(std::string_view name) {

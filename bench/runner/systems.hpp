@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/runner/graph_task.hpp"
 #include "slam/core/params.hpp"
 #include "slam/core/result.hpp"
 #include "slam/core/robot_model.hpp"
@@ -48,8 +49,13 @@ struct SystemInfo {
   // Every parameter's value. The Error lists all unknown names and broken rules.
   std::function<Result<ParamValues>(const std::string& profile, const ParamValues& overrides)>
       resolve;
+  // Of systems that are given a log; empty for those that are given a pose graph.
   std::function<Result<std::unique_ptr<SlamSystem>>(const SystemRequest&)> make;
+  // Of systems that are given a pose graph.
+  std::function<Result<GraphTask>(const std::string& profile, const ParamValues& overrides)>
+      graph_task;
 
+  [[nodiscard]] bool takes_graphs() const { return graph_task != nullptr; }
   [[nodiscard]] bool has_profile(std::string_view profile) const;
 };
 
@@ -64,7 +70,8 @@ LogSensors sensors_of(const SensorLog& log);
 // What the system needs and such a log does not have: "wheels", "an IMU".
 std::optional<std::string> missing_sensor(const SystemInfo& info, const LogSensors& sensors);
 
-// In the order of tables: the floor, the rivals, the third-party references, the fusion systems.
+// In the order of tables: the floor, the rivals, the third-party references, the fusion systems,
+// what solves graphs.
 std::vector<SystemInfo> systems();
 
 // "unknown system X; expected one of: ..." in one line, likewise for a profile and a back-end.

@@ -74,11 +74,12 @@ Result<PoseGraph> with_false_closures(PoseGraph graph, double share, FalsePairs 
 
 RejectionScore score_of(std::span<const graph::FactorId> rejected, std::size_t first_false,
                         std::size_t num_edges) {
+  RejectionScore score;
+  if (first_false == num_edges) return score;
   const auto hits = static_cast<double>(std::count_if(
       rejected.begin(), rejected.end(), [&](graph::FactorId id) { return id >= first_false; }));
-  RejectionScore score;
   if (!rejected.empty()) score.precision = hits / static_cast<double>(rejected.size());
-  if (num_edges > first_false) score.recall = hits / static_cast<double>(num_edges - first_false);
+  score.recall = hits / static_cast<double>(num_edges - first_false);
   return score;
 }
 

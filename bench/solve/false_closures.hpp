@@ -3,6 +3,7 @@
 // that of a closure of the graph itself, drawn at random, so that nothing but the place is wrong.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -19,6 +20,8 @@ enum class FalsePairs {
   kLocal,    // two poses at most kLocalReach poses apart
   kGrouped,  // runs of kGroupSize successive poses that pass a place that looks like another
 };
+inline constexpr std::array kFalsePairs = {FalsePairs::kRandom, FalsePairs::kLocal,
+                                           FalsePairs::kGrouped};
 // "random", "local", "grouped".
 std::string_view to_text(FalsePairs pairs);
 
@@ -31,9 +34,10 @@ inline constexpr std::size_t kGroupSize = 10;
 Result<formats::PoseGraph> with_false_closures(formats::PoseGraph graph, double share,
                                                FalsePairs pairs, const Rng& rng);
 
+// Neither where no edge is false.
 struct RejectionScore {
   std::optional<double> precision;  // share of the rejected that are false; nothing rejected: none
-  std::optional<double> recall;     // share of the false that are rejected; none false: none
+  std::optional<double> recall;     // share of the false that are rejected
 };
 // Of edges by number, of which those from `first_false` on are false.
 RejectionScore score_of(std::span<const graph::FactorId> rejected, std::size_t first_false,

@@ -181,18 +181,24 @@ Result<void> solve_incrementally(const Problem& problem, BackEnd& back_end,
   for (std::size_t k = 0; k < order->size() && !has_failed(run.status); ++k) {
     const std::uint32_t pose = (*order)[k].pose;
     std::vector<NewFactor> factors = factors_of(problem, k, arrivals[k]);
-    const Clock::time_point update_start = Clock::now();
+    const Clock::time_point step_start = Clock::now();
     const Pose2 T_map_base = predicted(problem, (*order)[k], back_end);
     if (!T_map_base.is_finite()) return lose(pose, run);
     graph::Values values;
     values.set_pose(pose, T_map_base);
-    if ((k + 1) % every == 0 || k + 1 == order->size()) {
-      count(back_end.update(std::move(factors), values, {}), run);
+    BackEndReport report;
+    const bool is_solved = (k + 1) % every == 0 || k + 1 == order->size();
+    if (is_solved) {
+      report = back_end.update(std::move(factors), values, {});
     } else {
       (void)back_end.add(std::move(factors), values);
     }
-    (void)back_end.pose(pose);
-    run.updates_s.push_back(seconds_since(update_start));
+    const Pose2 T_map_newest = back_end.pose(pose);
+    run.updates_s.push_back(seconds_since(step_start));
+    run.updates.push_back(
+        {pose, T_map_newest, k + 1, report.num_relinearized, report.num_eliminated});
+    if (is_solved) count(report, run);
+    if (options.after_update) options.after_update(back_end, run.updates.back());
   }
   if (options.do_converge && !has_failed(run.status)) converge(back_end, run);
   run.total_s = seconds_since(start);
@@ -207,6 +213,18 @@ std::int64_t num_singular(const formats::PoseGraph& graph) {
 }
 
 }  // namespace
+
+std::string_view to_text(Initialization init) {
+  switch (init) {
+    case Initialization::kFile:
+      return "file";
+    case Initialization::kOdometry:
+      return "odometry";
+    case Initialization::kChordal:
+      return "chordal";
+  }
+  return "";
+}
 
 Result<SolveRun> solve_graph(const formats::PoseGraph& graph, BackEnd& back_end,
                              const SolveOptions& options) {

@@ -2,9 +2,12 @@
 // that took. It reads and writes no files and knows no back-end by name.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "datasets/formats/graphs/pose_graph.hpp"
@@ -15,8 +18,17 @@
 
 namespace corridor::solve {
 
+// Limits of a batch solution: Levenberg-Marquardt takes many more iterations than plain
+// Gauss-Newton; solutions are compared to six digits, so they stop well below.
+inline constexpr int kMaxBatchIterations = 100;
+inline constexpr double kMinBatchRelativeDecrease = 1e-9;
+
 enum class Mode { kBatch, kIncremental };
 enum class Initialization { kFile, kOdometry, kChordal };
+inline constexpr std::array kInitializations = {Initialization::kFile, Initialization::kOdometry,
+                                                Initialization::kChordal};
+// "file", "odometry", "chordal".
+std::string_view to_text(Initialization init);
 
 // Finds false loop closures; of kBatch alone, since it looks at all edges at once.
 enum class Rejection {
@@ -24,6 +36,19 @@ enum class Rejection {
   kGnc,              // graduated non-convexity with the truncated loss [Yang2020]
   kGncGemanMcClure,  // the same with Geman and McClure's
   kPcm,              // pairwise consistency maximisation [Mangelson2018]
+};
+inline constexpr std::array kRejections = {Rejection::kNone, Rejection::kGnc,
+                                           Rejection::kGncGemanMcClure, Rejection::kPcm};
+// "none", "gnc", "gnc-geman-mcclure", "pcm".
+std::string_view to_text(Rejection rejection);
+
+// What the step of one pose did in kIncremental.
+struct Update {
+  std::uint32_t newest = 0;  // the pose, and where the estimate had it right after the step
+  Pose2 T_map_newest;
+  std::size_t num_poses = 0;  // so far
+  std::int64_t num_relinearized = 0;
+  std::int64_t num_eliminated = 0;
 };
 
 struct SolveOptions {
@@ -40,6 +65,9 @@ struct SolveOptions {
   backend::MakeBackEnd make_back_end = {};  // for the weighted solutions of kGnc
   // The last so many edges are false closures that were planted: the chi2 of a run leaves them out.
   std::size_t num_planted = 0;
+  // Of kIncremental: called after every step, with the step's clock stopped. For replays: total_s,
+  // cpu_s and the memory have in them what it does.
+  std::function<void(const backend::BackEnd&, const Update&)> after_update = {};
 };
 
 struct SolveRun {
@@ -50,8 +78,8 @@ struct SolveRun {
   std::int64_t num_iterations = 0;
   std::int64_t num_relinearized = 0;
   std::int64_t num_eliminated = 0;
-  std::int64_t num_dropped =
-      0;  // edges to poses that a back-end has forgotten; in chi2 all the same
+  // Edges to poses that a back-end has forgotten; in chi2 all the same.
+  std::int64_t num_dropped = 0;
   // Sum of e^T Omega e over the edges, rejected ones too, kernels and priors left out; of kBatch
   // also at the start.
   // Nothing if kIncremental failed on the way.
@@ -71,7 +99,9 @@ struct SolveRun {
   std::optional<int> converge_rounds;
   double cpu_s = 0;
   std::optional<double> peak_rss_mib;
-  std::vector<double> updates_s;  // of kIncremental: of every pose, its step with reading it
+  // Of kIncremental, both: what the step of every pose took, with reading it, and what it did.
+  std::vector<double> updates_s;
+  std::vector<Update> updates;
 };
 
 // `back_end` is empty before and has the solution afterwards. The graph's fixed poses are held by

@@ -66,6 +66,8 @@ struct CatalogEntry {
   formats::RobotKeys robot_keys;    // what it states
   formats::RawSensors raw;
   std::optional<formats::BagTopics> topics;  // of a ROS bag
+  std::optional<double> best_chi2;           // of a graph: the smallest that is known
+  std::string best_chi2_source;              // who found it, and how sure that is
   // Where it is stated, and the data folder that alone has its files; none: any data folder.
   std::filesystem::path catalog_file;
   std::uint32_t line = 0;

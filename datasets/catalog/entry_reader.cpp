@@ -28,11 +28,13 @@ constexpr std::array kKeys = {"name",
                               "source",
                               "topics",
                               "joints",
+                              "best_chi2",
                               "cut_after_s",
                               "calibration",
                               "companions",
                               "no_return_range_m",
                               "not_fetchable",
+                              "best_chi2_source",
                               "order_of_other_files",
                               "companions_not_fetchable"};
 constexpr std::array<std::string_view, 4> kFileKeys = {"path", "sha256", "content_sha256", "url"};
@@ -64,6 +66,7 @@ class EntryReader {
     take_choices();
     entry_.no_return_range_m = positive_number("no_return_range_m");
     entry_.cut_after_s = positive_number("cut_after_s");
+    take_best_chi2();
     take_calibration();
     take_topics();
     if (problems_.size() == num_problems_before) {
@@ -196,6 +199,17 @@ class EntryReader {
       complain(key, "expected a number > 0");
     }
     return value;
+  }
+
+  void take_best_chi2() {
+    entry_.best_chi2 = positive_number("best_chi2");
+    const bool is_stated = table_.contains("best_chi2");
+    if (is_stated != table_.contains("best_chi2_source")) {
+      complain("best_chi2", "expected together with best_chi2_source, who found it");
+    } else if (is_stated) {
+      entry_.best_chi2_source = text("best_chi2_source");
+      if (!entry_.is_graph()) complain("best_chi2", "only a pose graph has one");
+    }
   }
 
   void take_calibration() {

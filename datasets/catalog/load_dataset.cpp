@@ -7,22 +7,16 @@
 #include <string>
 #include <string_view>
 
+#include "datasets/catalog/catalogued_files.hpp"
 #include "datasets/catalog/checksum.hpp"
 #include "datasets/catalog/find_folder.hpp"
 #include "datasets/catalog/sha256.hpp"
-#include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "datasets/formats/lidar_clock.hpp"
 #include "datasets/formats/robot_toml.hpp"
 #include "slam/core/nearest_names.hpp"
 
 namespace corridor::catalog {
 namespace {
-
-std::string folders_text(const DataDirs& dirs) {
-  std::vector<std::string> names;
-  for (const auto& folder : dirs.folders) names.push_back(folder.string());
-  return fmt::format("{}", fmt::join(names, ", "));
-}
 
 std::vector<std::string> names_of(const Catalog& catalog) {
   std::vector<std::string> names;
@@ -84,45 +78,6 @@ Result<LoadedDataset> load_file(const LogSource& source, const std::optional<std
   if (!relations) return tl::make_unexpected(relations.error());
   loaded.relations = std::move(*relations);
   return loaded;
-}
-
-Result<std::filesystem::path> folder_of(const CatalogEntry& entry, const DataDirs& dirs) {
-  if (const auto folder = find_folder(entry, dirs)) return *folder;
-  const std::string way = entry.not_fetchable.empty()
-                              ? fmt::format("`corridor-bench data fetch {}` gets it", entry.name)
-                              : entry.not_fetchable + "; source: " + entry.source;
-  return fail(
-      ErrorCode::kNotFound,
-      fmt::format("data set {}: {} not found", entry.name, entry.files.front().path.string()),
-      entry.folder ? entry.folder->string() : folders_text(dirs),
-      (entry.folder ? "the file in this folder; " : "the file in one of these folders; ") + way);
-}
-
-// Every file of the entry must be there and be the catalogue's; otherwise a result would carry the
-// name of data it was not made from. Returns a line for each other file that was let through.
-Result<std::vector<std::string>> check_files(const CatalogEntry& entry,
-                                             const std::filesystem::path& folder,
-                                             bool accept_other_checksum) {
-  std::vector<std::string> other_checksums;
-  for (const DataFile& file : entry.files) {
-    const std::filesystem::path path = folder / file.path;
-    if (!is_file(path)) {
-      return fail(ErrorCode::kNotFound,
-                  fmt::format("data set {}: {} not found", entry.name, file.path.string()),
-                  folder.string(), "all files of the data set in one folder");
-    }
-    const auto sha256 = checksum_of(path, file);
-    if (!sha256) return tl::make_unexpected(sha256.error());
-    if (*sha256 == file.sha256) continue;
-    if (!accept_other_checksum) {
-      return fail(ErrorCode::kInvalid,
-                  fmt::format("data set {}: SHA-256 is {}", entry.name, *sha256), path.string(),
-                  file.sha256);
-    }
-    other_checksums.push_back(
-        fmt::format("{}: SHA-256 {} is not the catalogue's", path.string(), *sha256));
-  }
-  return other_checksums;
 }
 
 // Only what the catalogue lists is taken along: of the rest it has no checksum.
@@ -230,21 +185,6 @@ Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs
   loaded->lidar_time_offset_s = formats::move_onto_wheel_clock(
       loaded->log, loaded->relations ? &*loaded->relations : nullptr);
   return loaded;
-}
-
-Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataDirs& dirs,
-                                      const Catalog& catalog) {
-  const CatalogEntry* entry = catalog.find(name_or_path);
-  if (entry == nullptr) return formats::read_pose_graph(std::filesystem::path(name_or_path));
-  if (!entry->is_graph()) {
-    return fail(ErrorCode::kUnsupported, fmt::format("data set {} is no pose graph", entry->name),
-                "catalogue", "g2o or toro");
-  }
-  const auto folder = folder_of(*entry, dirs);
-  if (!folder) return tl::make_unexpected(folder.error());
-  const auto checked = check_files(*entry, *folder, false);
-  if (!checked) return tl::make_unexpected(checked.error());
-  return formats::read_pose_graph(*folder / entry->files.front().path);
 }
 
 Result<LoadedDataset> load_dataset(std::string_view name_or_path, const DataDirs& dirs,

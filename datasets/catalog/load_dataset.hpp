@@ -1,4 +1,4 @@
-// Loading a data set by its name, any log by its path, with its truth; the same for pose graphs.
+// Loading a data set by its name, any log by its path, with its truth.
 // It decides nothing about scoring.
 #pragma once
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "datasets/catalog/catalog.hpp"
-#include "datasets/formats/graphs/pose_graph.hpp"
 #include "datasets/formats/log_io.hpp"
 #include "datasets/formats/trajectories/relations.hpp"
 #include "slam/core/result.hpp"
@@ -57,9 +56,5 @@ struct LogSource {
 };
 Result<LogSource> find_log(std::string_view name_or_path, const DataDirs& dirs,
                            const Catalog& catalog, const LoadOptions& options = {});
-
-// The same for a pose graph: a catalogued name, whose file must have its checksum, or a path.
-Result<formats::PoseGraph> load_graph(std::string_view name_or_path, const DataDirs& dirs,
-                                      const Catalog& catalog);
 
 }  // namespace corridor::catalog

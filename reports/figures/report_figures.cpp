@@ -76,12 +76,21 @@ std::vector<Figure> report_figures(const Cases& cases, std::vector<std::string>&
   const auto add = [&](std::optional<Figure> figure) {
     if (figure) figures.push_back(std::move(*figure));
   };
-  for (const std::string& dataset : cases.datasets()) {
-    add(environment_figure(cases, dataset, problems));
-    add(trajectory_figure(cases, dataset, problems));
-    add(map_figure(cases, dataset, problems));
-    add(error_figure(cases, dataset));
-    add(stage_figure(cases, dataset));
+  const Cases logs = cases.of_logs();
+  for (const std::string& dataset : logs.datasets()) {
+    add(environment_figure(logs, dataset, problems));
+    add(trajectory_figure(logs, dataset, problems));
+    add(map_figure(logs, dataset, problems));
+    add(error_figure(logs, dataset));
+    add(stage_figure(logs, dataset));
+  }
+  const Cases graphs = cases.of_graphs();
+  for (const char* system : {"graph-batch", "graph-incremental"}) {
+    add(profile_figure(graphs, system));
+  }
+  for (const std::string& dataset : graphs.datasets()) {
+    add(update_figure(graphs, dataset, problems));
+    add(gap_figure(graphs, dataset, problems));
   }
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());

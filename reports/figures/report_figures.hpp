@@ -40,6 +40,15 @@ std::optional<Figure> map_figure(const reports::Cases& cases, const std::string&
                                  std::vector<std::string>& problems);
 // Every world's position and angle error per system on logarithmic axes.
 std::optional<Figure> error_figure(const reports::Cases& cases, const std::string& dataset);
+// Share of problems that each back-end of a system that solves graphs solves within a factor of the
+// fastest time; `graphs` has graph cases only, here and below.
+std::optional<Figure> profile_figure(const reports::Cases& graphs, const std::string& system);
+// Time of an update over the number of poses.
+std::optional<Figure> update_figure(const reports::Cases& graphs, const std::string& dataset,
+                                    std::vector<std::string>& problems);
+// Gap to the batch optimum along the run.
+std::optional<Figure> gap_figure(const reports::Cases& graphs, const std::string& dataset,
+                                 std::vector<std::string>& problems);
 // Time of a step and of each stage: median, 95 % quantile, maximum, and the share of all time.
 std::optional<Figure> stage_figure(const reports::Cases& cases, const std::string& dataset);
 

@@ -7,10 +7,13 @@
 #include <cmath>
 #include <map>
 
+#include "bench/statistics/quantiles.hpp"
+#include "reports/graph_cases.hpp"
 #include "reports/html/standing.hpp"
 #include "reports/metrics.hpp"
 #include "reports/tables/summary.hpp"
 #include "reports/tables/writers.hpp"
+#include "slam/core/counted.hpp"
 
 namespace corridor::html {
 namespace {
@@ -201,11 +204,48 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
   return sentences;
 }
 
+// Who solved a graph every time, and which of them needed the least time. No comparison: the table
+// and the performance profiles have all times.
+Verdict graph_verdict(const Cases& cases, const std::string& dataset) {
+  std::size_t num_series = 0;
+  std::size_t num_solved = 0;
+  const Series* fastest = nullptr;
+  double least_s = 0;
+  const std::vector<Series> all = cases.series();
+  for (const Series& series : all) {
+    const auto tried = cases.of(dataset, series);
+    num_series += tried.empty() ? 0 : 1;
+    const bool is_solved = std::all_of(tried.begin(), tried.end(), [](const reports::Case* entry) {
+      return reports::is_solved(entry->result) && entry->result.wall_s;
+    });
+    if (tried.empty() || !is_solved) continue;
+    ++num_solved;
+    std::vector<double> times_s;
+    for (const reports::Case* entry : tried) times_s.push_back(*entry->result.wall_s);
+    const double median_s = *statistics::median(times_s);
+    if (fastest != nullptr && median_s >= least_s) continue;
+    fastest = &series;
+    least_s = median_s;
+  }
+  Verdict verdict{dataset, {}, {}};
+  verdict.sentences.push_back(
+      fmt::format("Solved every time by {} of {} ways and back-ends.", num_solved, num_series));
+  if (fastest != nullptr) {
+    verdict.sentences.push_back(fmt::format("Least time: {}, median {:.3g} s over {}.",
+                                            cases.label(*fastest), least_s,
+                                            counted(cases.of(dataset, *fastest).size(), "run")));
+  }
+  return verdict;
+}
+
 }  // namespace
 
 std::vector<Verdict> verdicts(const Cases& cases) {
   std::vector<Verdict> all;
-  for (const std::string& dataset : cases.datasets()) {
+  for (const std::string& dataset : cases.of_graphs().datasets()) {
+    all.push_back(graph_verdict(cases, dataset));
+  }
+  for (const std::string& dataset : cases.of_logs().datasets()) {
     Verdict verdict{dataset, {}, {}};
     if (const std::string reason = why_no_verdict(cases, dataset); !reason.empty()) {
       all.push_back({dataset, {reason}, {}});

@@ -3,16 +3,20 @@
 namespace corridor::tables {
 
 std::vector<Table> report_tables(const reports::Cases& cases) {
-  std::vector<Table> tables = {key_distance_table(cases),
-                               key_distance_error_table(cases),
-                               trajectory_error_table(cases),
-                               comparison_table(cases),
-                               relation_table(cases),
-                               cost_table(cases),
-                               stage_table(cases),
+  const reports::Cases logs = cases.of_logs();
+  const reports::Cases graphs = cases.of_graphs();
+  std::vector<Table> tables = {key_distance_table(logs),
+                               key_distance_error_table(logs),
+                               trajectory_error_table(logs),
+                               comparison_table(logs),
+                               relation_table(logs),
+                               back_end_table(graphs),
+                               back_end_run_table(graphs),
+                               cost_table(logs),
+                               stage_table(logs),
                                outcome_table(cases),
                                failure_table(cases),
-                               missing_table(cases)};
+                               missing_table(logs)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   return tables;
 }

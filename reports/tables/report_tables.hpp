@@ -21,6 +21,10 @@ Table trajectory_error_table(const reports::Cases& cases);
 Table comparison_table(const reports::Cases& cases);
 // Errors of relations set up by hand, beside published figures; recorded data.
 Table relation_table(const reports::Cases& cases);
+// Pose graphs: how often the best known chi2 was reached, the gap to it, time and memory.
+Table back_end_table(const reports::Cases& cases);
+// The same pose by pose: time per update, work per update, gap along the run.
+Table back_end_run_table(const reports::Cases& cases);
 // Time, memory and real-time factor of whole runs.
 Table cost_table(const reports::Cases& cases);
 // Time per stage.

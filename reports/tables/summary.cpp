@@ -73,7 +73,7 @@ bool is_scored(const Cases& cases, const std::string& dataset) {
     const results::RunResult& r = entry->result;
     return r.final_scores.position_rmse_m || r.online_scores.position_rmse_m ||
            r.final_relations.relations_translation_mean_m ||
-           r.online_relations.relations_translation_mean_m;
+           r.online_relations.relations_translation_mean_m || r.chi2_gap_ratio;
   });
 }
 

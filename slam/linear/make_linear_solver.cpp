@@ -7,13 +7,6 @@ namespace corridor::linear {
 
 std::string to_text(LinearSolverKind kind) { return std::string(make_linear_solver(kind)->name()); }
 
-std::optional<LinearSolverKind> linear_solver_from_text(std::string_view text) {
-  for (const auto kind : {LinearSolverKind::kCholmod, LinearSolverKind::kBlock}) {
-    if (to_text(kind) == text) return kind;
-  }
-  return std::nullopt;
-}
-
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind) {
   if (kind == LinearSolverKind::kBlock) return std::make_unique<BlockCholesky>();
   return std::make_unique<SparseCholesky>();

@@ -1,10 +1,9 @@
 // The linear solvers by name, for whoever takes one as a parameter.
 #pragma once
 
+#include <array>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 
 #include "slam/linear/linear_solver.hpp"
 
@@ -14,9 +13,9 @@ enum class LinearSolverKind {
   kCholmod,  // SparseCholesky
   kBlock,    // BlockCholesky
 };
+inline constexpr std::array kLinearSolvers = {LinearSolverKind::kCholmod, LinearSolverKind::kBlock};
 // As LinearSolver::name().
 std::string to_text(LinearSolverKind kind);
-std::optional<LinearSolverKind> linear_solver_from_text(std::string_view text);
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearSolverKind kind);
 

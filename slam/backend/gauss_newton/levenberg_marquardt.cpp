@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/backend/gauss_newton/normal_equations.hpp"
+#include "slam/core/enum_text.hpp"
 #include "slam/core/expect.hpp"
 #include "slam/linear/make_linear_solver.hpp"
 
@@ -20,7 +21,7 @@ using graph::Values;
 class LeastSquares final : public BackEnd {
  public:
   explicit LeastSquares(const LeastSquaresParams& params) : params_(params) {
-    const auto kind = linear::linear_solver_from_text(params.linear);
+    const auto kind = from_text(linear::kLinearSolvers, params.linear);
     CORRIDOR_EXPECT(kind.has_value());
     cholesky_ = linear::make_linear_solver(*kind);
   }
@@ -206,7 +207,7 @@ class LeastSquares final : public BackEnd {
 }  // namespace
 
 std::vector<std::string> LeastSquaresParams::relations() const {
-  if (linear::linear_solver_from_text(linear)) return {};
+  if (from_text(linear::kLinearSolvers, linear)) return {};
   return {"linear = \"" + linear + "\": expected block or cholmod"};
 }
 

@@ -37,6 +37,10 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "nees_mean nees_dof chi2 factors variables relinearised slip_precision slip_recall "
       "slip_latency_s degeneracy_precision degeneracy_recall stages step_p50_us step_p95_us "
       "step_p99_us step_max_us wall_s cpu_s peak_rss_mib realtime_factor "
+      // of pose graphs
+      "data_kind iterations eliminated chi2_initial chi2_best chi2_best_source chi2_gap_ratio "
+      "run_gap_p50_ratio run_gap_max_ratio run_newest_gap_max_m step_mean_us init_s "
+      "false_closures rejected_closures rejection_precision rejection_recall "
       // beyond the contract's table
       "case_id suite data_source data_digest true_poses jobs notes parameters overrides build_id "
       "counters "

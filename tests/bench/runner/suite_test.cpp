@@ -61,6 +61,23 @@ TEST(Suite, KeepsEverythingTheFileSays) {
             (ParamValues{{"buffer_size_scans", "20"}, {"use_loop_closing", "false"}}));
 }
 
+TEST(Suite, GivesASystemBackEndsOfItsOwn) {
+  const Result<Suite> suite = parse(
+      std::string(kGood) + "[backends_of]\n\"karto@corrected\" = " + "[\"ceres\", \"isam2\"]\n");
+  ASSERT_TRUE(suite.has_value()) << suite.error().to_line();
+  EXPECT_EQ(suite->backends_for({"karto", "corrected"}),
+            (std::vector<std::string>{"ceres", "isam2"}));
+  EXPECT_TRUE(suite->backends_for({"karto", "shipped"}).empty());
+}
+
+TEST(Suite, RefusesBackEndsOfWhatIsNotRunOrTakesNone) {
+  const std::string table = std::string(kGood) + "[backends_of]\n";
+  EXPECT_REFUSED(table + "karto = [\"ceres\"]\n", "the suite does not run karto@shipped");
+  EXPECT_REFUSED(table + "gmapping = [\"ceres\"]\n", "gmapping takes no back-end");
+  EXPECT_REFUSED(table + "\"karto@corrected\" = [\"magic\"]\n", "unknown back-end \"magic\"");
+  EXPECT_REFUSED(table + "kartoo = [\"ceres\"]\n", "unknown system \"kartoo\"");
+}
+
 TEST(Suite, RefusesAnUnknownKeyWithItsLine) {
   EXPECT_REFUSED(with("num_seeds = 3", "num_seed = 3"), "mine.toml:4: unknown key \"num_seed\"");
 }

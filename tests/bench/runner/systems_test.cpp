@@ -15,6 +15,10 @@ TEST(Systems, AreAllMadeWithEveryProfileAndAnswerToTheirName) {
     EXPECT_FALSE(info.description.empty()) << info.name;
     ASSERT_FALSE(info.profiles.empty()) << info.name;
     for (const ProfileInfo& profile : info.profiles) {
+      if (info.takes_graphs()) {
+        EXPECT_TRUE(info.graph_task(profile.name, {}).has_value()) << info.name;
+        continue;
+      }
       const auto system = info.make({profile.name, {}, info.default_backend, RobotModel{}, 1, 1});
       ASSERT_TRUE(system.has_value()) << info.name << ": " << system.error().to_line();
       EXPECT_EQ((*system)->name(), info.name);
@@ -26,6 +30,7 @@ TEST(Systems, AreMadeWithEveryBackEndIfTheyTakeOne) {
   for (const SystemInfo& info : systems()) {
     if (!info.default_backend) continue;
     EXPECT_TRUE(check_back_end(*info.default_backend)) << info.name;
+    if (info.takes_graphs()) continue;
     for (const BackEndInfo& back_end : back_ends()) {
       EXPECT_TRUE(info.make({info.profiles.front().name, {}, back_end.name, RobotModel{}, 1, 1})
                       .has_value());
@@ -86,7 +91,7 @@ TEST(Systems, ResolveEveryParameterAndRefuseUnknownOnes) {
 TEST(Systems, ThatNeedNoWheelsFollowADriveWithoutThem) {
   const SensorLog log = testing::room_log({.num_scans = 40});
   for (const SystemInfo& info : systems()) {
-    if (info.needs_wheels || info.needs_imu) continue;
+    if (info.needs_wheels || info.needs_imu || info.takes_graphs()) continue;
     const auto system =
         *info.make({info.profiles.front().name, {}, info.default_backend, log.robot, 1, 1});
     for (const SensorEvent& event : log.events) {

@@ -86,6 +86,7 @@ TEST(RejectionScore, IsCountedByHand) {
   EXPECT_EQ(score_of(rejected, 8, 10).recall, 0.5);
   EXPECT_EQ(score_of({}, 8, 10).precision, std::nullopt);
   EXPECT_EQ(score_of({}, 8, 10).recall, 0.0);
+  EXPECT_EQ(score_of(rejected, 10, 10).precision, std::nullopt);
   EXPECT_EQ(score_of(rejected, 10, 10).recall, std::nullopt);
 }
 

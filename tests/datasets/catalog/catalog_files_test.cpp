@@ -5,6 +5,7 @@
 #include <set>
 
 #include "datasets/catalog/load_dataset.hpp"
+#include "datasets/catalog/load_graph.hpp"
 #include "datasets/catalog/sha256.hpp"
 #include "datasets/formats/file_bytes.hpp"
 #include "datasets/formats/log_health.hpp"
@@ -148,7 +149,7 @@ TEST(LoadGraph, ByNameAndByPathAndNoLog) {
   entry.format = "g2o";
   entry.files = {{"tiny.g2o", to_hex(sha256_of(kGraph)), false, ""}};
   ASSERT_TRUE(load_graph("graph", data.dirs, catalog).has_value());
-  EXPECT_EQ(load_graph("graph", data.dirs, catalog)->edges.size(), 1U);
+  EXPECT_EQ(load_graph("graph", data.dirs, catalog)->graph.edges.size(), 1U);
   EXPECT_TRUE(load_graph(path.string(), data.dirs, catalog).has_value());
   EXPECT_NE(load_graph("tiny", data.dirs, catalog).error().to_line().find("is no pose graph"),
             std::string::npos);
@@ -156,6 +157,71 @@ TEST(LoadGraph, ByNameAndByPathAndNoLog) {
             std::string::npos);
   data.folder.write("data/tiny.g2o", std::string(kGraph) + "\n");
   EXPECT_NE(load_graph("graph", data.dirs, catalog).error().to_line().find("SHA-256"),
+            std::string::npos);
+}
+
+TEST(LoadGraph, TakesTruePosesAndKnowsTheBestChi2OfAFileByItsBytes) {
+  const TinyData data;
+  const std::string text =
+      "VERTEX_SE2 7 1 0 0\nVERTEX_SE2 3 0 0 0\nEDGE_SE2 3 7 1 0 0 1 0 0 1 0 1\n";
+  const auto path = data.folder.write("data/tiny.g2o", text);
+  const Catalog none;
+  const auto alone = load_graph(path.string(), data.dirs, none);
+  ASSERT_TRUE(alone.has_value()) << alone.error().to_line();
+  EXPECT_TRUE(alone->true_poses.empty());
+  EXPECT_FALSE(alone->best_chi2.has_value());
+
+  data.folder.write("data/tiny.truth-nodes.dat", "0 0 0\n1 2 0.5\n");
+  Catalog catalog;
+  CatalogEntry& entry = catalog.entries.emplace_back();
+  entry.name = "graph";
+  entry.format = "g2o";
+  entry.files = {{"elsewhere.g2o", to_hex(sha256_of(text)), false, ""}};
+  entry.best_chi2 = 5;
+  const auto with_truth = load_graph(path.string(), data.dirs, catalog);
+  ASSERT_TRUE(with_truth.has_value()) << with_truth.error().to_line();
+  ASSERT_EQ(with_truth->true_poses.size(), 2U);
+  EXPECT_EQ(with_truth->true_poses[0].id, 3U) << "the first line is of the lowest pose";
+  EXPECT_EQ(with_truth->true_poses[1].T_map_base.x_m(), 1);
+  EXPECT_NE(with_truth->digest, alone->digest) << "scores follow from the truth too";
+  EXPECT_EQ(with_truth->best_chi2, 5);
+}
+
+TEST(LoadGraph, RefusesTruePosesThatAreNotTheGraphs) {
+  const TinyData data;
+  const auto path = data.folder.write(
+      "data/tiny.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
+  const auto refusal = [&](const char* truth) {
+    data.folder.write("data/tiny.truth-nodes.dat", truth);
+    const auto loaded = load_graph(path.string(), data.dirs, Catalog());
+    return loaded ? std::string("accepted") : loaded.error().to_line();
+  };
+  EXPECT_NE(refusal("0 0 0\n").find("1 true poses; expected 2"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n1 0 0\n2 0 0\n").find("3 true poses; expected 2"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n1 0\n").find("tiny.truth-nodes.dat:2"), std::string::npos);
+  EXPECT_NE(refusal("0 0 0\n1 nan 0\n").find("not a true pose"), std::string::npos);
+  EXPECT_NE(refusal("").find("0 true poses"), std::string::npos);
+}
+
+TEST(LoadGraph, MakesAWalkByItsNameAnywhere) {
+  const auto walk = load_graph("walk-50-s3", DataDirs(), Catalog());
+  ASSERT_TRUE(walk.has_value());
+  EXPECT_EQ(walk->graph.vertices.size(), 50U);
+  EXPECT_EQ(walk->true_poses.size(), 50U);
+  EXPECT_TRUE(is_graph_name("walk-50-s3", Catalog()));
+  EXPECT_FALSE(is_graph_name("walk-50", Catalog()));
+}
+
+TEST(Catalog, ABestChi2IsAGraphsAndSaysWhoFoundIt) {
+  const ScratchFolder folder;
+  const auto refusal = [&](const std::string& more) {
+    const auto catalog = read_catalog(folder.write("catalog.toml", entry_text(more)));
+    return catalog ? std::string("accepted") : catalog.error().to_line();
+  };
+  EXPECT_NE(refusal("best_chi2 = 3.5\n").find("best_chi2_source, who found it"), std::string::npos);
+  EXPECT_NE(refusal("best_chi2 = -1\nbest_chi2_source = \"me\"\n").find("expected a number > 0"),
+            std::string::npos);
+  EXPECT_NE(refusal("best_chi2 = 3.5\nbest_chi2_source = \"me\"\n").find("only a pose graph"),
             std::string::npos);
 }
 
@@ -256,7 +322,9 @@ TEST(Catalog, EveryGraphThatIsFoundLoads) {
     if (!entry.is_graph() || verified->front().status == FileStatus::kMissing) continue;
     const auto graph = load_graph(entry.name, dirs, *catalog);
     ASSERT_TRUE(graph.has_value()) << graph.error().to_line();
-    EXPECT_GT(graph->edges.size(), graph->vertices.size()) << entry.name;
+    EXPECT_GT(graph->graph.edges.size(), graph->graph.vertices.size()) << entry.name;
+    EXPECT_TRUE(graph->best_chi2.has_value()) << entry.name;
+    EXPECT_EQ(graph->true_poses.empty(), entry.name != "manhattanOlson3500") << entry.name;
     ++num_loaded;
   }
   if (num_loaded == 0) GTEST_SKIP() << "no graph found; set $CORRIDOR_BENCH_DATA to their folder";

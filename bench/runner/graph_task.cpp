@@ -1,0 +1,68 @@
+#include "bench/runner/graph_task.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "bench/solve/robust_method.hpp"
+#include "slam/core/enum_text.hpp"
+
+namespace corridor::runner {
+namespace {
+
+// No initialisation of a graph alone.
+constexpr std::string_view kOptimum = "optimum";
+
+// A name is not among those known: the line that says so.
+void check_name(std::string_view parameter, const std::string& value,
+                const std::vector<std::string>& known, std::vector<std::string>& broken) {
+  if (std::find(known.begin(), known.end(), value) != known.end()) return;
+  broken.push_back(
+      fmt::format("{} = {}: expected one of {}", parameter, value, fmt::join(known, " ")));
+}
+
+}  // namespace
+
+std::vector<std::string> GraphBatchParams::relations() const {
+  std::vector<std::string> broken;
+  std::vector<std::string> starts = texts_of(solve::kInitializations);
+  starts.emplace_back(kOptimum);
+  check_name("start", start, starts, broken);
+  check_name("false_pairs", false_pairs, texts_of(solve::kFalsePairs), broken);
+  check_name("robust", robust, solve::robust_methods(), broken);
+  const bool has_noise = start_position_sigma_m > 0 || start_heading_sigma_rad > 0;
+  if (has_noise && start != "file" && start != kOptimum) {
+    broken.push_back(
+        fmt::format("start = {}: expected file or optimum where noise is put on it", start));
+  }
+  return broken;
+}
+
+GraphTask task_of(const GraphBatchParams& params) {
+  GraphTask task;
+  task.starts_at_optimum = params.start == kOptimum;
+  // The optimum takes the place of the file's poses.
+  if (!task.starts_at_optimum) {
+    task.options.init = *from_text(solve::kInitializations, params.start);
+  }
+  task.settings.max_iterations = params.max_iterations;
+  task.settings.min_relative_decrease = params.min_relative_decrease;
+  solve::set_robust_method(params.robust, params.kernel_width, task.options);
+  task.options.inlier_probability = params.inlier_probability;
+  task.false_closures = params.false_closures;
+  task.false_pairs = *from_text(solve::kFalsePairs, params.false_pairs);
+  task.start_position_sigma_m = params.start_position_sigma_m;
+  task.start_heading_sigma_rad = params.start_heading_sigma_rad;
+  return task;
+}
+
+GraphTask task_of(const GraphIncrementalParams& params) {
+  GraphTask task;
+  task.options.mode = solve::Mode::kIncremental;
+  task.options.poses_per_update = params.poses_per_update;
+  task.num_checkpoints = params.num_checkpoints;
+  return task;
+}
+
+}  // namespace corridor::runner

@@ -1,0 +1,75 @@
+#include "reports/graph_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "datasets/formats/file_bytes.hpp"
+#include "datasets/formats/text.hpp"
+
+namespace corridor::reports {
+namespace {
+
+constexpr double kMicroseconds = 1e6;
+// Columns of updates.csv that are shown.
+constexpr std::size_t kPoses = 2, kTime = 3, kChi2 = 6, kOptimum = 7, kNewestGap = 8,
+                      kNumFields = 10;
+
+// Empty fields are not numbers.
+std::optional<std::array<std::optional<double>, kNumFields>> fields_of(std::string_view line) {
+  std::array<std::optional<double>, kNumFields> fields;
+  for (std::size_t i = 0; i < kNumFields; ++i) {
+    const std::size_t comma = line.find(',');
+    const bool is_last = i + 1 == kNumFields;
+    if ((comma == std::string_view::npos) != is_last) return std::nullopt;
+    const std::string_view field = line.substr(0, comma);
+    fields[i] = formats::parse_double(field);
+    if (!field.empty() && !fields[i]) return std::nullopt;
+    line.remove_prefix(is_last ? line.size() : comma + 1);
+  }
+  return fields;
+}
+
+std::optional<UpdateRow> row_of(std::string_view line) {
+  const auto fields = fields_of(line);
+  if (!fields || !(*fields)[kPoses] || !(*fields)[kTime]) return std::nullopt;
+  UpdateRow row{*(*fields)[kPoses], *(*fields)[kTime] / kMicroseconds, {}};
+  const auto& chi2 = (*fields)[kChi2];
+  const auto& optimum = (*fields)[kOptimum];
+  const auto& gap_m = (*fields)[kNewestGap];
+  if (chi2 && optimum && gap_m) row.checkpoint = {*chi2, *optimum, *gap_m};
+  return row;
+}
+
+}  // namespace
+
+bool is_pose_by_pose(const results::RunResult& result) { return result.step_max_us.has_value(); }
+
+bool is_solved(const results::RunResult& result) {
+  const double limit = is_pose_by_pose(result) ? kSolvedPoseByPose_ratio : kSolvedAtOnce_ratio;
+  return result.status == results::CaseStatus::kOk && result.chi2_gap_ratio &&
+         *result.chi2_gap_ratio <= limit;
+}
+
+Result<std::vector<UpdateRow>> read_updates(const std::filesystem::path& case_dir) {
+  const std::filesystem::path path = case_dir / "updates.csv";
+  const Result<std::string> bytes = formats::read_file_bytes(path);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  std::string_view text = *bytes;
+  std::vector<UpdateRow> rows;
+  std::size_t num_lines = 0;
+  while (const auto line = formats::take_line(text)) {
+    if (num_lines++ == 0) continue;  // the names of the columns
+    const std::optional<UpdateRow> row = row_of(*line);
+    if (!row) {
+      return fail(ErrorCode::kMalformed, "no line of updates.csv: " + formats::quote(*line),
+                  fmt::format("{}:{}", path.string(), num_lines),
+                  fmt::format("{} fields, poses and time among them", kNumFields));
+    }
+    rows.push_back(*row);
+  }
+  return rows;
+}
+
+}  // namespace corridor::reports
