@@ -98,6 +98,9 @@ TEST(TraceGap, SeesWhatASolverThatIsCalledOnlyNowAndThenLeavesUndone) {
       return solver_->add(std::move(factors), values);
     }
     backend::BackEndReport solve() override { return {}; }
+    backend::BackEndReport update_until_converged(const backend::ConvergenceBudget&) override {
+      return {};
+    }
     void set_values(const graph::Values& values) override { solver_->set_values(values); }
     [[nodiscard]] const graph::Values& estimate() const override { return solver_->estimate(); }
     [[nodiscard]] const graph::FactorGraph& graph() const override { return solver_->graph(); }
