@@ -26,6 +26,8 @@ using testing::RandomProblem;
 
 // Metres, radians, m/s: where a sum of squares of this size is known to 15 digits.
 constexpr double kSameOptimum = 1e-6;
+// Under a kernel that nearly turns factors off, the same digits of the cost hold a variable less.
+constexpr double kSameOptimumOfFewFactors = 1e-4;
 // Of the recorded graphs' chi2, which is known to as many digits.
 constexpr double kSameChi2 = 1e-6;
 
@@ -66,7 +68,7 @@ std::vector<Rival> rivals(double min_relative_decrease) {
           ceres("ceres@tuned", tuned_ceres_params(), min_relative_decrease)};
 }
 
-void expect_one_optimum(const RandomProblem& problem) {
+void expect_one_optimum(const RandomProblem& problem, double tolerance = kSameOptimum) {
   constexpr double kDownToRounding = 1e-15;
   std::unique_ptr<BackEnd> judge;
   for (const Rival& rival : rivals(kDownToRounding)) {
@@ -81,7 +83,7 @@ void expect_one_optimum(const RandomProblem& problem) {
       continue;
     }
     const double difference = testing::largest_difference(judge->estimate(), solver->estimate());
-    if (difference > kSameOptimum) RC_FAIL(rival.name + " is off by " + std::to_string(difference));
+    if (difference > tolerance) RC_FAIL(rival.name + " is off by " + std::to_string(difference));
     RC_ASSERT(std::abs(report.chi2 - judge->graph().cost(judge->estimate())) <=
               kSameChi2 * (1 + report.chi2));
   }
@@ -143,16 +145,20 @@ RC_GTEST_PROP(BackEnds, AgreeUnderHubersKernel, (std::uint64_t seed)) {
 
 RC_GTEST_PROP(BackEnds, AgreeUnderCauchysKernel, (std::uint64_t seed)) {
   expect_one_optimum(
-      from_near_an_optimum(testing::random_walk(seed, {KernelKind::kCauchy, 3}), seed));
+      from_near_an_optimum(testing::random_walk(seed, {KernelKind::kCauchy, 3}), seed),
+      kSameOptimumOfFewFactors);
   expect_one_optimum(
-      from_near_an_optimum(testing::random_drive(seed, {KernelKind::kCauchy, 3}), seed));
+      from_near_an_optimum(testing::random_drive(seed, {KernelKind::kCauchy, 3}), seed),
+      kSameOptimumOfFewFactors);
 }
 
 RC_GTEST_PROP(BackEnds, AgreeUnderTheKernelOfGemanAndMcClure, (std::uint64_t seed)) {
   expect_one_optimum(
-      from_near_an_optimum(testing::random_walk(seed, {KernelKind::kGemanMcClure, 5}), seed));
+      from_near_an_optimum(testing::random_walk(seed, {KernelKind::kGemanMcClure, 5}), seed),
+      kSameOptimumOfFewFactors);
   expect_one_optimum(
-      from_near_an_optimum(testing::random_drive(seed, {KernelKind::kGemanMcClure, 5}), seed));
+      from_near_an_optimum(testing::random_drive(seed, {KernelKind::kGemanMcClure, 5}), seed),
+      kSameOptimumOfFewFactors);
 }
 
 // A graph of the catalogue with the best chi2 known, from four independent solvers.
