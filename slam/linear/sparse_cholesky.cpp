@@ -95,6 +95,7 @@ struct SparseCholesky::Impl {
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = strategy_of(method);
+    common.supernodal_switch = kSupernodalSwitch;
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
     common.postorder = 1;
