@@ -9,7 +9,7 @@ namespace {
 
 using linear::front_stride;
 
-// A pivot below this share of its diagonal entry has no correct digit left.
+// A pivot below this share of what factors added to its diagonal entry has no correct digit left.
 constexpr double kMinPivotRatio = 1e-15;
 
 std::ptrdiff_t panel_size(int num_pivots, int num_below) {
@@ -21,13 +21,14 @@ std::ptrdiff_t update_size(int num_below) { return (num_below + 1) * front_strid
 }  // namespace
 
 std::size_t Front::memory_size(int num_pivots, int num_below) {
-  return to_index(panel_size(num_pivots, num_below) + update_size(num_below) + num_pivots);
+  return to_index(panel_size(num_pivots, num_below) + update_size(num_below) +
+                  num_pivots + num_below + 1);
 }
 
 Front::Front(double* memory, int num_pivots, int num_below)
     : panel_(memory),
       update_(panel_ + panel_size(num_pivots, num_below)),
-      z_(update_ + update_size(num_below)),
+      scale_(update_ + update_size(num_below)),
       num_pivots_(num_pivots),
       num_below_(num_below),
       stride_(front_stride(num_pivots + num_below + 1)),
@@ -45,6 +46,7 @@ void Front::add_update(const Front& child, std::span<const RowRun> runs) {
       const double* const from =
           child.update_column(child_pivots + columns.from + c) + child_pivots;
       const int column = columns.to + c;
+      scale_[column] += child.scale_[child_pivots + columns.from + c];
       double* const to = column_of(column);
       for (int r = c; r < columns.length; ++r) to[columns.to + r] += from[columns.from + r];
       for (std::size_t i = j + 1; i < runs.size(); ++i) {
@@ -62,11 +64,10 @@ void Front::add_update(const Front& child, std::span<const RowRun> runs) {
 }
 
 int Front::eliminate() {
-  for (int k = 0; k < num_pivots_; ++k) z_[k] = panel_[k * stride_ + k];  // free until a solution
   int num_good = linear::factorize_panel(panel_, stride_, last_row() + 1, num_pivots_);
   for (int k = 0; k < num_good; ++k) {
     const double inverse = panel_[k * stride_ + k];  // of the square root of the pivot
-    if (!(1 > kMinPivotRatio * z_[k] * inverse * inverse)) num_good = k;
+    if (!(1 > kMinPivotRatio * scale_[k] * inverse * inverse)) num_good = k;
   }
   if (num_good == num_pivots_) {
     linear::subtract_outer_product(panel_, stride_, last_row() + 1, num_pivots_, update_,

@@ -39,6 +39,9 @@ class Front {
   // diagonal (row == column) or wholly off it.
   template <class Block>
   void add(int row, int column, const Block& block) {
+    if (row == column) {
+      for (int r = 0; r < block.rows(); ++r) scale_[row + r] += block(r, r);
+    }
     if (row >= column) {
       for (int c = 0; c < block.cols(); ++c) at_column(column + c, row, block.col(c));
     } else {
@@ -55,7 +58,8 @@ class Front {
   void add_update(const Front& child, std::span<const RowRun> runs);
 
   // Eliminates the pivots. Returns the number of good ones: num_pivots(), or the one at which the
-  // matrix showed not to be positive definite.
+  // matrix showed not to be positive definite: of what its factors said on it, nothing is left that
+  // its neighbours do not take away.
   int eliminate();
 
   // After eliminate(): column `pivot` of [L11; L21; y^T], the diagonal of L11 inverted.
@@ -67,7 +71,7 @@ class Front {
   // Sum of squares that is left when all pivots are at their optimum, of this front and below.
   [[nodiscard]] double chi2() const { return update_column(last_row())[last_row()]; }
   // z = y - L21^T x_below of the last solution: num_pivots() doubles that the owner keeps here.
-  [[nodiscard]] double* kept_z() { return z_; }
+  [[nodiscard]] double* kept_z() { return scale_; }
 
  private:
   double* column_of(int column) {
@@ -80,7 +84,10 @@ class Front {
     for (int r = 0; r < values.rows(); ++r) to[r] += values(r);
   }
 
-  double *panel_ = nullptr, *update_ = nullptr, *z_ = nullptr;
+  double *panel_ = nullptr, *update_ = nullptr;
+  // By row: the sum of what factors added to the diagonal, of this front and below. Those of pivots
+  // make room for kept_z().
+  double* scale_ = nullptr;
   int num_pivots_ = 0, num_below_ = 0;
   std::ptrdiff_t stride_ = 0, update_stride_ = 0;
 };
