@@ -262,6 +262,23 @@ TEST(Isam2, APoseThatNothingHoldsIsNamedAndAFactorForItHeals) {
   EXPECT_NEAR(solver->estimate().pose(2).x_m(), 2, 1e-6);
 }
 
+// What elimination leaves of a pose that nothing holds is rounding, of either sign.
+RC_GTEST_PROP(Isam2, AGraphThatNothingHoldsIsRefusedAtEveryPose, (std::uint64_t seed)) {
+  testing::PoseGraph problem = ring(seed);
+  std::erase_if(problem.steps[0], [](const NewFactor& factor) {
+    return std::holds_alternative<graph::PosePrior>(factor.factor);
+  });
+  const auto solver = make_isam2({});
+  for (std::uint32_t i = 0; i < problem.steps.size(); ++i) {
+    graph::Values values;
+    values.set_pose(i, problem.initial.pose(i));
+    const BackEndReport report = solver->update(problem.steps[i], values, {});
+    if (i == 0) continue;  // no factor yet, nothing to solve
+    RC_ASSERT(report.status == SolveStatus::kRankDeficient);
+    RC_ASSERT(report.undetermined.has_value());
+  }
+}
+
 TEST(Isam2, WithoutAPriorNoPoseIsDeterminedAndAllStayAsTheyWere) {
   const auto solver = make_isam2({});
   graph::Values values;
