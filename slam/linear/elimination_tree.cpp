@@ -9,7 +9,8 @@ namespace {
 
 enum class Side { kBefore, kBehind };
 
-BlockPattern by_place(const BlockPattern& pattern, const std::vector<int>& place, Side side) {
+void by_place(const BlockPattern& pattern, std::span<const int> place, Side side,
+              BlockPattern& placed) {
   const auto for_each_pair = [&](const auto& visit) {
     for (int j = 0; j < pattern.num_variables(); ++j) {
       for (const int i : pattern.of(j)) {
@@ -22,66 +23,71 @@ BlockPattern by_place(const BlockPattern& pattern, const std::vector<int>& place
       }
     }
   };
-  BlockPattern placed;
-  placed.starts.assign(pattern.starts.size(), 0);
+  // Counted one further than it belongs, so that starts[k + 1] is where k begins, and where it ends
+  // once its rows are in.
+  placed.starts.assign(pattern.starts.size() + 1, 0);
   placed.rows.resize(pattern.rows.size());
-  for_each_pair([&](int of, int) { ++placed.starts[to_index(of) + 1]; });
+  for_each_pair([&](int of, int) { ++placed.starts[to_index(of) + 2]; });
   std::partial_sum(placed.starts.begin(), placed.starts.end(), placed.starts.begin());
-  std::vector<int> next(placed.starts.begin(), placed.starts.end() - 1);
-  for_each_pair([&](int of, int other) { placed.rows[to_index(next[to_index(of)]++)] = other; });
-  return placed;
+  for_each_pair(
+      [&](int of, int other) { placed.rows[to_index(placed.starts[to_index(of) + 1]++)] = other; });
+  placed.starts.pop_back();
 }
 
 }  // namespace
 
-BlockPattern places_before(const BlockPattern& pattern, const std::vector<int>& place) {
-  return by_place(pattern, place, Side::kBefore);
+void find_places_behind(const BlockPattern& pattern, std::span<const int> place,
+                        BlockPattern& behind) {
+  by_place(pattern, place, Side::kBehind, behind);
 }
 
-BlockPattern places_behind(const BlockPattern& pattern, const std::vector<int>& place) {
-  return by_place(pattern, place, Side::kBehind);
-}
-
-std::vector<int> tree_parents(const BlockPattern& before) {
-  const std::size_t n = to_index(before.num_variables());
-  // Shortcuts towards the root of what is known so far, shortened on every walk.
-  std::vector<int> parents(n, kNoNode), ancestors(n, kNoNode);
-  for (int j = 0; j < before.num_variables(); ++j) {
-    for (int k : before.of(j)) {
-      while (k != kNoNode && k < j) {
-        const int next = std::exchange(ancestors[to_index(k)], j);
-        if (next == kNoNode) parents[to_index(k)] = j;
-        k = next;
-      }
-    }
-  }
-  return parents;
-}
-
-TreeChildren::TreeChildren(const std::vector<int>& parents)
-    : first(parents.size() + 1, kNoNode), next(parents.size(), kNoNode) {
+void TreeChildren::assign(std::span<const int> parents) {
+  first.assign(parents.size() + 1, kNoNode);
+  next.assign(parents.size(), kNoNode);
   for (std::size_t j = parents.size(); j-- > 0;) {
     int& head = first[parents[j] == kNoNode ? parents.size() : to_index(parents[j])];
     next[j] = std::exchange(head, static_cast<int>(j));
   }
 }
 
-std::vector<int> tree_postorder(const std::vector<int>& parents) {
-  TreeChildren children(parents);
-  std::vector<int> order, open;
-  order.reserve(parents.size());
-  int node = static_cast<int>(parents.size());
+void EliminationTree::build(const BlockPattern& pattern, std::span<const int> place) {
+  by_place(pattern, place, Side::kBefore, before_);
+  find_parents();
+  find_postorder();
+}
+
+void EliminationTree::find_parents() {
+  const std::size_t n = to_index(before_.num_variables());
+  parents_.assign(n, kNoNode);
+  // Shortcuts towards the root of what is known so far, shortened on every walk.
+  ancestors_.assign(n, kNoNode);
+  for (int j = 0; j < before_.num_variables(); ++j) {
+    for (int k : before_.of(j)) {
+      while (k != kNoNode && k < j) {
+        const int next = std::exchange(ancestors_[to_index(k)], j);
+        if (next == kNoNode) parents_[to_index(k)] = j;
+        k = next;
+      }
+    }
+  }
+}
+
+void EliminationTree::find_postorder() {
+  children_.assign(parents_);
+  postorder_.clear();
+  open_.clear();
+  int node = static_cast<int>(parents_.size());
   for (;;) {
-    int& child = children.first[to_index(node)];
+    int& child = children_.first[to_index(node)];
     if (child != kNoNode) {
-      open.push_back(node);
-      node = std::exchange(child, children.next[to_index(child)]);
+      open_.push_back(node);
+      node = std::exchange(child, children_.next[to_index(child)]);
       continue;
     }
-    if (open.empty()) return order;
-    order.push_back(node);
-    node = open.back();
-    open.pop_back();
+    if (open_.empty()) return;
+    postorder_.push_back(node);
+    node = open_.back();
+    open_.pop_back();
   }
 }
 

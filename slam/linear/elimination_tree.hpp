@@ -11,23 +11,37 @@ namespace corridor::linear {
 
 constexpr int kNoNode = -1;
 
-// Pairs of a pattern seen from one of their places: of every place those before it, or those
-// behind it, in any order. place: of every variable.
-BlockPattern places_before(const BlockPattern& pattern, const std::vector<int>& place);
-BlockPattern places_behind(const BlockPattern& pattern, const std::vector<int>& place);
-
-// Parent of every place; kNoNode at a root. before: as places_before() makes it.
-std::vector<int> tree_parents(const BlockPattern& before);
+// The pairs of a pattern seen from their earlier place: of every place those behind it, in any
+// order. place: of every variable. `behind` keeps its memory.
+void find_places_behind(const BlockPattern& pattern, std::span<const int> place,
+                        BlockPattern& behind);
 
 // Children of every node as lists: the first of each, and the next of the same parent; ascending.
 // The roots are the children of one more node at the end.
 struct TreeChildren {
   std::vector<int> first, next;
 
-  explicit TreeChildren(const std::vector<int>& parents);
+  void assign(std::span<const int> parents);
 };
 
-// Nodes so that every subtree is together and children come before their parent.
-std::vector<int> tree_postorder(const std::vector<int>& parents);
+// Builds one tree after the other in the same memory.
+class EliminationTree {
+ public:
+  // place: of every variable.
+  void build(const BlockPattern& pattern, std::span<const int> place);
+
+  // Of every place; kNoNode at a root.
+  [[nodiscard]] const std::vector<int>& parents() const { return parents_; }
+  // Nodes so that every subtree is together and children come before their parent.
+  [[nodiscard]] const std::vector<int>& postorder() const { return postorder_; }
+
+ private:
+  void find_parents();
+  void find_postorder();
+
+  BlockPattern before_;  // of every place those before it
+  std::vector<int> parents_, ancestors_, postorder_, open_;
+  TreeChildren children_;
+};
 
 }  // namespace corridor::linear

@@ -78,7 +78,7 @@ class LayoutBuilder {
     std::vector<int> dimensions;
     const std::vector<int>& starts = matrix.starts();
     for (std::size_t j = 1; j < starts.size(); ++j) dimensions.push_back(starts[j] - starts[j - 1]);
-    out_.plan = plan_elimination(matrix.pattern(), order, dimensions);
+    out_.plan = EliminationPlanner().plan(matrix.pattern(), order, dimensions);
     for (const int variable : out_.plan.order) {
       for (int row = starts[to_index(variable)]; row < starts[to_index(variable) + 1]; ++row) {
         out_.row_order.push_back(row);
@@ -109,7 +109,7 @@ class LayoutBuilder {
     front.first_pivot = first_scalars_[to_index(node.first_place)];
     front.num_pivots = first_scalars_[to_index(node.end_place)] - front.first_pivot;
     front.num_rows = front.num_pivots;
-    for (const int place : node.rows) front.num_rows += dimension(place);
+    for (const int place : out_.plan.rows_of(node)) front.num_rows += dimension(place);
     front.stride = front_stride(front.num_rows);
     front.panel = out_.panels_size;
     front.has_parent = node.parent >= 0;
@@ -125,7 +125,7 @@ class LayoutBuilder {
     Front& front = out_.fronts[s];
     front.first_run = out_.runs.size();
     int row = front.num_pivots;
-    for (const int place : out_.plan.supernodes[s].rows) {
+    for (const int place : out_.plan.rows_of(out_.plan.supernodes[s])) {
       append_run(out_.runs, front.first_run,
                  {row, first_scalars_[to_index(place)], dimension(place)});
       row += dimension(place);
@@ -142,7 +142,7 @@ class LayoutBuilder {
       row += dimension(place);
     };
     for (int place = node.first_place; place < node.end_place; ++place) put(place);
-    for (const int place : node.rows) put(place);
+    for (const int place : out_.plan.rows_of(node)) put(place);
   }
 
   void list_copies() {
@@ -191,7 +191,7 @@ class LayoutBuilder {
     Front& front = out_.fronts[s];
     front.first_join = out_.joins.size();
     int row = 0;
-    for (const int place : out_.plan.supernodes[s].rows) {
+    for (const int place : out_.plan.rows_of(out_.plan.supernodes[s])) {
       append_run(out_.joins, front.first_join,
                  {row, front_row_[to_index(place)], dimension(place)});
       row += dimension(place);

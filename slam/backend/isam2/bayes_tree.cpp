@@ -207,7 +207,7 @@ int BayesTree::make_clique(const linear::Supernode& node) {
     num_pivots += dimension(variable);
   }
   clique.num_frontals = static_cast<int>(clique.variables.size());
-  for (const int place : node.rows) {
+  for (const int place : order_.separator_of(node)) {
     clique.variables.push_back(order_.variable_at(place));
     num_below += dimension(clique.variables.back());
   }

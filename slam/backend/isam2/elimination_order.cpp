@@ -22,10 +22,10 @@ void EliminationOrder::plan(std::span<const int> variables, const VariableSets& 
   groups_.assign(n, 0);
   for (const int variable : last) groups_[to_index(local_[to_index(variable)])] = n > 1 ? 1 : 0;
   linear::constrained_minimum_degree_order(pattern_, groups_, order_);
-  plan_ = linear::plan_elimination(pattern_, order_, local_dimensions_);
+  plan_ = &planner_.plan(pattern_, order_, local_dimensions_);
   clique_of_place_.resize(n);
-  for (std::size_t c = 0; c < plan_.supernodes.size(); ++c) {
-    const linear::Supernode& node = plan_.supernodes[c];
+  for (std::size_t c = 0; c < plan_->supernodes.size(); ++c) {
+    const linear::Supernode& node = plan_->supernodes[c];
     std::fill(clique_of_place_.begin() + node.first_place,
               clique_of_place_.begin() + node.end_place, static_cast<int>(c));
   }
@@ -34,7 +34,7 @@ void EliminationOrder::plan(std::span<const int> variables, const VariableSets& 
   for (std::size_t s = 0; s < sets.size(); ++s) {
     int first_place = static_cast<int>(n);
     for (std::size_t k = 0; k < sets[s].size(); ++k) {
-      first_place = std::min(first_place, plan_.place[to_index(local_members_[member++])]);
+      first_place = std::min(first_place, plan_->place[to_index(local_members_[member++])]);
     }
     clique_of_set_[s] = clique_of_place_[to_index(first_place)];
   }

@@ -18,10 +18,14 @@ class EliminationOrder {
   void plan(std::span<const int> variables, const VariableSets& sets, std::span<const int> last,
             std::span<const int> dimensions);
 
-  [[nodiscard]] const std::vector<linear::Supernode>& cliques() const { return plan_.supernodes; }
+  [[nodiscard]] const std::vector<linear::Supernode>& cliques() const { return plan_->supernodes; }
+  // Places of a clique's separator, ascending.
+  [[nodiscard]] std::span<const int> separator_of(const linear::Supernode& clique) const {
+    return plan_->rows_of(clique);
+  }
   // Variable that is eliminated at `place`.
   [[nodiscard]] int variable_at(int place) const {
-    return variables_[static_cast<std::size_t>(plan_.order[static_cast<std::size_t>(place)])];
+    return variables_[static_cast<std::size_t>(plan_->order[static_cast<std::size_t>(place)])];
   }
   // Number of the clique that takes set k: the one which eliminates the first of its members.
   [[nodiscard]] int clique_of_set(std::size_t k) const { return clique_of_set_[k]; }
@@ -36,7 +40,8 @@ class EliminationOrder {
   std::vector<int> first_set_of_, sets_of_;  // sets of every local variable, in compressed rows
   std::vector<int> seen_by_, groups_, order_, local_dimensions_, clique_of_place_;
   std::vector<int> clique_of_set_;
-  linear::EliminationPlan plan_;
+  linear::EliminationPlanner planner_;
+  const linear::EliminationPlan* plan_ = nullptr;  // the last
 };
 
 }  // namespace corridor::backend

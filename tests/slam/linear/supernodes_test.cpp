@@ -82,11 +82,13 @@ RC_GTEST_PROP(EliminationTree, ParentsAreTheFirstRowsOfTheColumnsOfL, (std::uint
     place[to_index(given.order[k])] = static_cast<int>(k);
   }
   const std::vector<std::set<int>> rows = eliminate(given.pattern, place);
-  const std::vector<int> parents = tree_parents(places_before(given.pattern, place));
+  EliminationTree tree;
+  tree.build(given.pattern, place);
+  const std::vector<int>& parents = tree.parents();
   for (std::size_t j = 0; j < rows.size(); ++j) {
     RC_ASSERT(parents[j] == (rows[j].empty() ? kNoNode : *rows[j].begin()));
   }
-  const std::vector<int> postorder = tree_postorder(parents);
+  const std::vector<int>& postorder = tree.postorder();
   RC_ASSERT(is_permutation(postorder));
   std::vector<bool> is_done(place.size(), false);
   for (const int node : postorder) {
@@ -96,9 +98,14 @@ RC_GTEST_PROP(EliminationTree, ParentsAreTheFirstRowsOfTheColumnsOfL, (std::uint
   }
 }
 
+EliminationPlan plan_of(const BlockPattern& pattern, const std::vector<int>& order,
+                        const std::vector<int>& dimensions) {
+  return EliminationPlanner().plan(pattern, order, dimensions);
+}
+
 RC_GTEST_PROP(EliminationPlan, IsAPermutationInSupernodesWithChildrenFirst, (std::uint64_t seed)) {
   const Case given = random_case(seed);
-  const EliminationPlan plan = plan_elimination(given.pattern, given.order, given.dimensions);
+  const EliminationPlan plan = plan_of(given.pattern, given.order, given.dimensions);
   RC_ASSERT(is_permutation(plan.order));
   for (std::size_t k = 0; k < plan.order.size(); ++k) {
     RC_ASSERT(plan.place[to_index(plan.order[k])] == static_cast<int>(k));
@@ -109,7 +116,7 @@ RC_GTEST_PROP(EliminationPlan, IsAPermutationInSupernodesWithChildrenFirst, (std
     RC_ASSERT(node.first_place == next_place);
     RC_ASSERT(node.end_place > node.first_place);
     next_place = node.end_place;
-    RC_ASSERT((node.parent < 0) == node.rows.empty());
+    RC_ASSERT((node.parent < 0) == plan.rows_of(node).empty());
     RC_ASSERT(node.parent < 0 || node.parent > static_cast<int>(s));
   }
   RC_ASSERT(next_place == static_cast<int>(plan.order.size()));
@@ -118,15 +125,15 @@ RC_GTEST_PROP(EliminationPlan, IsAPermutationInSupernodesWithChildrenFirst, (std
 // Joining columns of different rows may add rows to a column, but none to its supernode's last one.
 RC_GTEST_PROP(EliminationPlan, SupernodesHaveTheRowsOfTheDenseElimination, (std::uint64_t seed)) {
   const Case given = random_case(seed);
-  const EliminationPlan plan = plan_elimination(given.pattern, given.order, given.dimensions);
+  const EliminationPlan plan = plan_of(given.pattern, given.order, given.dimensions);
   const std::vector<std::set<int>> rows = eliminate(given.pattern, plan.place);
   for (const Supernode& node : plan.supernodes) {
     const std::set<int>& of_last = rows[to_index(node.end_place - 1)];
-    RC_ASSERT(std::vector<int>(of_last.begin(), of_last.end()) == node.rows);
+    const std::span<const int> rows_of_node = plan.rows_of(node);
+    RC_ASSERT(std::ranges::equal(of_last, rows_of_node));
     for (int place = node.first_place; place < node.end_place; ++place) {
       for (const int row : rows[to_index(place)]) {
-        RC_ASSERT(row < node.end_place ||
-                  std::binary_search(node.rows.begin(), node.rows.end(), row));
+        RC_ASSERT(row < node.end_place || std::ranges::binary_search(rows_of_node, row));
       }
     }
   }
@@ -135,16 +142,27 @@ RC_GTEST_PROP(EliminationPlan, SupernodesHaveTheRowsOfTheDenseElimination, (std:
 // What a front hands on must find its rows in the parent's front.
 RC_GTEST_PROP(EliminationPlan, RowsAreTheParentsPivotsAndRows, (std::uint64_t seed)) {
   const Case given = random_case(seed);
-  const EliminationPlan plan = plan_elimination(given.pattern, given.order, given.dimensions);
+  const EliminationPlan plan = plan_of(given.pattern, given.order, given.dimensions);
   for (const Supernode& node : plan.supernodes) {
     if (node.parent < 0) continue;
     const Supernode& parent = plan.supernodes[to_index(node.parent)];
-    RC_ASSERT(parent.first_place <= node.rows.front());
-    RC_ASSERT(node.rows.front() < parent.end_place);
-    for (const int row : node.rows) {
-      RC_ASSERT(row < parent.end_place ||
-                std::binary_search(parent.rows.begin(), parent.rows.end(), row));
+    const std::span<const int> rows = plan.rows_of(node);
+    RC_ASSERT(parent.first_place <= rows.front());
+    RC_ASSERT(rows.front() < parent.end_place);
+    for (const int row : rows) {
+      RC_ASSERT(row < parent.end_place || std::ranges::binary_search(plan.rows_of(parent), row));
     }
+  }
+}
+
+RC_GTEST_PROP(EliminationPlan, IsTheSameInUsedMemory, (std::uint64_t seed)) {
+  EliminationPlanner planner;
+  for (const std::uint64_t other : {seed + 1, seed + 2, seed}) {
+    const Case given = random_case(other);
+    const EliminationPlan& plan = planner.plan(given.pattern, given.order, given.dimensions);
+    const EliminationPlan fresh = plan_of(given.pattern, given.order, given.dimensions);
+    RC_ASSERT(plan.order == fresh.order && plan.place == fresh.place && plan.rows == fresh.rows);
+    RC_ASSERT(plan.supernodes.size() == fresh.supernodes.size());
   }
 }
 
@@ -153,7 +171,7 @@ TEST(EliminationPlan, VariablesThatAllShareBlocksAreOneSupernode) {
   full.rows = {1, 2, 3, 2, 3, 3};
   full.starts = {0, 3, 5, 6, 6};
   const std::vector<int> dimensions(4, 30);
-  EXPECT_EQ(plan_elimination(full, {2, 0, 3, 1}, dimensions).supernodes.size(), 1u);
+  EXPECT_EQ(plan_of(full, {2, 0, 3, 1}, dimensions).supernodes.size(), 1u);
 }
 
 }  // namespace
