@@ -1,0 +1,129 @@
+// Pose graphs with false loop closures in a report: which cases they are, what counts as a success,
+// their table, figure and sentence.
+#include "reports/false_closures.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reports/tables/report_tables.hpp"
+#include "reports/tables/writers.hpp"
+
+namespace corridor::reports {
+namespace {
+
+using results::RunResult;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// `percent` of the closures false, all of them and one true one rejected.
+RunResult disturbed(const std::string& method, int percent, double gap_ratio, std::uint64_t seed) {
+  RunResult result;
+  result.profile = fmt::format("{}-false-{}", method, percent);
+  result.case_id = fmt::format("{}-{}", result.profile, seed);
+  result.suite = "false-closures";
+  result.system = "graph-batch";
+  result.backend = "gauss-newton";
+  result.dataset = "a";
+  result.data_kind = "graph";
+  result.system_seed = seed;
+  result.parameters = {{"robust", method},
+                       {"false_closures", fmt::format("{}", percent / 100.0)},
+                       {"false_pairs", "random"},
+                       {"start", "odometry"}};
+  result.parameters_hash = result.profile;
+  result.status = results::CaseStatus::kOk;
+  result.chi2_gap_ratio = gap_ratio;
+  result.wall_s = 1;
+  if (percent > 0) result.false_closures = percent;
+  if (method == "none") return result;
+  result.rejected_closures = percent + 1;
+  if (percent == 0) return result;
+  result.rejection_precision = percent / (percent + 1.0);
+  result.rejection_recall = 1;
+  return result;
+}
+
+Cases cases_of(const std::vector<RunResult>& results) {
+  std::vector<Case> cases;
+  for (const RunResult& result : results) cases.push_back({result, result.case_id});
+  return Cases(std::move(cases), {}, {});
+}
+
+// The same start with nothing planted, of a suite that is not about false closures.
+RunResult undisturbed() {
+  RunResult result = disturbed("none", 0, 0, 1);
+  result.suite = "backends";
+  result.profile = result.case_id = "odometry";
+  return result;
+}
+
+std::vector<std::string> profiles_of(const Cases& cases) {
+  std::vector<std::string> profiles;
+  for (const Case& entry : cases.all()) profiles.push_back(entry.result.profile);
+  return profiles;
+}
+
+TEST(FalseClosures, AreCasesWithPlantedOnesOrAMethodAndTheirOwnSuitesBaseline) {
+  const Cases cases = cases_of({disturbed("none", 30, 9, 1), disturbed("gnc", 0, 0, 1),
+                                disturbed("none", 0, 0, 1), undisturbed()});
+  EXPECT_THAT(profiles_of(with_false_closures(cases)),
+              ElementsAre("gnc-false-0", "none-false-0", "none-false-30"));
+  EXPECT_THAT(profiles_of(without_false_closures(cases)), ElementsAre("odometry"));
+}
+
+TEST(FalseClosures, AreNoneWhereNothingWasPlantedAndNothingLookedForThem) {
+  RunResult old = undisturbed();
+  old.parameters.clear();
+  const Cases cases = cases_of({old, disturbed("none", 0, 0, 1)});
+  EXPECT_TRUE(with_false_closures(cases).all().empty());
+  EXPECT_EQ(without_false_closures(cases).all().size(), 2U);
+}
+
+TEST(FalseClosures, LeaveAGraphFoundAgainWithinAQuarterOfTheBest) {
+  RunResult result = disturbed("gnc", 50, 0.24, 1);
+  EXPECT_TRUE(is_found_again(result));
+  result.chi2_gap_ratio = 0.26;
+  EXPECT_FALSE(is_found_again(result));
+  result.chi2_gap_ratio.reset();
+  EXPECT_FALSE(is_found_again(result)) << "nothing measured is no success";
+  result.chi2_gap_ratio = 0;
+  result.status = results::CaseStatus::kDiverged;
+  EXPECT_FALSE(is_found_again(result));
+}
+
+TEST(FalseClosureTable, HasARowPerGraphMethodAndShareWithSuccessGapAndRejection) {
+  const tables::Table table = tables::false_closure_table(with_false_closures(cases_of(
+      {disturbed("gnc", 50, 0.1, 1), disturbed("gnc", 50, 0.5, 2), disturbed("gnc", 50, 0.2, 3),
+       disturbed("gnc", 10, 0, 1), disturbed("none", 50, 700, 1)})));
+  ASSERT_EQ(table.rows.size(), 3U);
+  const auto text = [&](std::size_t row, std::size_t column) {
+    return std::get<std::string>(table.rows[row][column]);
+  };
+  EXPECT_EQ(text(0, 2), "none") << "what does nothing comes first";
+  EXPECT_EQ(text(0, 4), "0/1");
+  EXPECT_EQ(text(1, 3), "10");
+  EXPECT_EQ(text(2, 2), "gnc");
+  EXPECT_EQ(text(2, 3), "50");
+  EXPECT_EQ(text(2, 4), "2/3");
+  EXPECT_EQ(text(2, 5), "0.21 to 0.94");
+  EXPECT_EQ(text(2, 6), "2.0e-01");
+  EXPECT_EQ(text(2, 7), "5.0e-01");
+  const auto& precision = std::get<tables::Estimate>(table.rows[2][10]);
+  EXPECT_DOUBLE_EQ(precision.median, 50.0 / 51);
+  EXPECT_EQ(precision.n, 3);
+  EXPECT_TRUE(std::holds_alternative<tables::Missing>(table.rows[0][10])) << "nothing looked";
+  EXPECT_THAT(tables::to_markdown(table), HasSubstr("at most 25 % above the best known"));
+}
+
+TEST(ReportTables, KeepFalseClosuresOutOfTheTableOfBackEnds) {
+  std::vector<std::string> ids;
+  for (const tables::Table& table :
+       tables::report_tables(cases_of({disturbed("gnc", 30, 0, 1), disturbed("none", 0, 0, 1)}))) {
+    ids.push_back(table.id);
+  }
+  EXPECT_THAT(ids, ElementsAre("false-closures", "outcomes"));
+}
+
+}  // namespace
+}  // namespace corridor::reports
