@@ -112,7 +112,7 @@ Table false_closure_table(const Cases& cases) {
       add_share(row.tried, reports::is_found_again, cells);
       cells.push_back(median_gap(row.tried, gap_of));
       cells.push_back(largest_gap(row.tried, gap_of));
-      add_cells(cases, dataset, row.series, metrics, cells);
+      add_cells(cases, dataset, row.series, metrics, cells, "none");
       table.rows.push_back(std::move(cells));
     }
   }

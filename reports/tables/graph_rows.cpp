@@ -54,8 +54,11 @@ void add_columns(const std::vector<Metric>& metrics, Table& table) {
 }
 
 void add_cells(const Cases& cases, const std::string& dataset, const Series& series,
-               const std::vector<Metric>& metrics, std::vector<Cell>& row) {
-  for (const Metric& metric : metrics) row.push_back(summarise(cases, dataset, series, metric));
+               const std::vector<Metric>& metrics, std::vector<Cell>& row,
+               const std::string& reason) {
+  for (const Metric& metric : metrics) {
+    row.push_back(summarise(cases, dataset, series, metric, reason));
+  }
 }
 
 void add_share(const std::vector<const Case*>& tried, bool (*is_success)(const RunResult&),

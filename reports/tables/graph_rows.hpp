@@ -17,9 +17,10 @@ Metric graph_metric(const char* key, const char* name, int decimals,
 Table graph_table(const char* id, const char* caption);
 
 void add_columns(const std::vector<Metric>& metrics, Table& table);
+// `reason`: why there is none, where there is none.
 void add_cells(const reports::Cases& cases, const std::string& dataset,
                const reports::Series& series, const std::vector<Metric>& metrics,
-               std::vector<Cell>& row);
+               std::vector<Cell>& row, const std::string& reason = "not measured");
 
 // "9/9", and for programs the share with the ends of its interval: two cells.
 void add_share(const std::vector<const reports::Case*>& tried,

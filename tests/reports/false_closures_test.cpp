@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "reports/figures/report_figures.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/writers.hpp"
 
@@ -123,6 +126,76 @@ TEST(ReportTables, KeepFalseClosuresOutOfTheTableOfBackEnds) {
     ids.push_back(table.id);
   }
   EXPECT_THAT(ids, ElementsAre("false-closures", "outcomes"));
+}
+
+TEST(FalseClosureFigure, HasALinePerMethodAndAPanelPerGraph) {
+  RunResult other = disturbed("dcs", 50, 0, 1);
+  other.dataset = "b";
+  const Cases cases = with_false_closures(
+      cases_of({disturbed("gnc", 0, 0, 1), disturbed("gnc", 50, 9, 1), disturbed("gnc", 50, 0, 2),
+                disturbed("none", 50, 700, 1), other}));
+  const auto figure = figures::false_closure_figure(cases, "gauss-newton");
+  ASSERT_TRUE(figure.has_value());
+  EXPECT_EQ(figure->svg.id(), "false-closures-gauss-newton");
+  const std::string svg = figure->svg.file();
+  for (const char* text : {">a: share of runs", ">b: share of runs", ">none<", ">dcs<", ">gnc<"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  EXPECT_THAT(figure->caption, HasSubstr("shares of 1 to 2 runs"));
+  EXPECT_FALSE(figures::false_closure_figure(cases, "ceres").has_value());
+  EXPECT_FALSE(figures::false_closure_figure(cases_of({disturbed("gnc", 0, 0, 1)}), "gauss-newton")
+                   .has_value())
+      << "nothing planted";
+}
+
+TEST(FalseClosureFigure, NeverPoolsWhatWasPlantedOtherwise) {
+  RunResult local = disturbed("gnc", 50, 0, 1);
+  local.parameters["false_pairs"] = "local";
+  local.parameters_hash = local.profile = "local";
+  const auto figure = figures::false_closure_figure(
+      with_false_closures(cases_of({local, disturbed("gnc", 50, 9, 1)})), "gauss-newton");
+  ASSERT_TRUE(figure.has_value());
+  const std::string svg = figure->svg.file();
+  EXPECT_THAT(svg, HasSubstr("gnc (false_pairs local)"));
+  EXPECT_THAT(svg, HasSubstr("gnc (false_pairs random)"));
+}
+
+TEST(FalseClosureFigure, DrawsEveryMethodInItsOwnStyle) {
+  std::vector<RunResult> results;
+  for (const char* method :
+       {"none", "huber", "cauchy", "geman-mcclure", "dcs", "gnc", "gnc-geman-mcclure", "pcm"}) {
+    results.push_back(disturbed(method, 50, 0, 1));
+  }
+  const auto figure = figures::false_closure_figure(cases_of(results), "gauss-newton");
+  ASSERT_TRUE(figure.has_value());
+  const std::string svg = figure->svg.file();
+  std::set<std::string> styles;
+  const std::string drawn = "\"path line-";
+  for (std::size_t at = svg.find(drawn); at != std::string::npos; at = svg.find(drawn, at + 1)) {
+    styles.insert(svg.substr(at, svg.find('"', at + 1) - at));
+  }
+  EXPECT_EQ(styles.size(), results.size());
+}
+
+TEST(InitialNoiseFigure, HasALinePerBackEndOverTheNoiseAndNoneWithout) {
+  std::vector<RunResult> results;
+  for (const char* backend : {"gauss-newton", "ceres"}) {
+    for (const char* sigma_rad : {"0.1", "0.4"}) {
+      RunResult result = undisturbed();
+      result.backend = backend;
+      result.profile = std::string("near-") + sigma_rad;
+      result.case_id = result.profile + backend;
+      result.parameters["start_heading_sigma_rad"] = sigma_rad;
+      result.parameters["start_position_sigma_m"] = sigma_rad[2] == '1' ? "1" : "4";
+      results.push_back(result);
+    }
+  }
+  const auto figure = figures::initial_noise_figure(cases_of(results));
+  ASSERT_TRUE(figure.has_value());
+  const std::string svg = figure->svg.file();
+  EXPECT_THAT(svg, HasSubstr(">gauss-newton<"));
+  EXPECT_THAT(svg, HasSubstr(">ceres<"));
+  EXPECT_FALSE(figures::initial_noise_figure(cases_of({undisturbed()})).has_value());
 }
 
 }  // namespace
