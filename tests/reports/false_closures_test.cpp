@@ -9,6 +9,7 @@
 #include <set>
 
 #include "reports/figures/report_figures.hpp"
+#include "reports/html/verdict.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/writers.hpp"
 
@@ -196,6 +197,40 @@ TEST(InitialNoiseFigure, HasALinePerBackEndOverTheNoiseAndNoneWithout) {
   EXPECT_THAT(svg, HasSubstr(">gauss-newton<"));
   EXPECT_THAT(svg, HasSubstr(">ceres<"));
   EXPECT_FALSE(figures::initial_noise_figure(cases_of({undisturbed()})).has_value());
+}
+
+std::vector<std::string> sentences_on_a(const std::vector<RunResult>& results) {
+  return html::verdicts(cases_of(results)).front().sentences;
+}
+
+TEST(Verdict, SaysWhichMethodFoundTheGraphAgainWithHalfOfItsClosuresFalse) {
+  EXPECT_THAT(sentences_on_a({disturbed("none", 50, 700, 1), disturbed("gnc", 50, 0.1, 1),
+                              disturbed("gnc", 50, 9, 2), disturbed("gnc", 30, 0, 1)}),
+              ElementsAre("With 50 % of the closures false found again by: "
+                          "gnc 1 of 2 [0.09, 0.91]; none 0 of 1 [0.00, 0.79]."));
+}
+
+TEST(Verdict, TellsTwoBackEndsWithOneMethodApart) {
+  RunResult other = disturbed("gnc", 50, 9, 1);
+  other.backend = "ceres";
+  other.case_id += "ceres";
+  EXPECT_THAT(sentences_on_a({disturbed("gnc", 50, 0, 1), other}),
+              ElementsAre(HasSubstr("gnc (graph-batch/gauss-newton) 1 of 1 [0.21, 1.00]; "
+                                    "gnc (graph-batch/ceres) 0 of 1 [0.00, 0.79].")));
+}
+
+TEST(Verdict, SaysNothingOfMethodsThatWereNotRunWithHalfOfTheClosuresFalse) {
+  EXPECT_THAT(sentences_on_a({disturbed("gnc", 30, 0, 1)}),
+              ElementsAre("No verdict on false closures: nothing was run with 50 % of them."));
+}
+
+TEST(Verdict, OfBackEndsLeavesFalseClosuresOut) {
+  RunResult solved = undisturbed();
+  solved.wall_s = 2;
+  EXPECT_THAT(sentences_on_a({solved, disturbed("gnc", 50, 0, 1)}),
+              ElementsAre("Solved every time by 1 of 1 ways and back-ends.",
+                          "Least time: graph-batch, median 2 s over 1 run.",
+                          HasSubstr("by: gnc 1 of 1 [0.21, 1.00].")));
 }
 
 }  // namespace
