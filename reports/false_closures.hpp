@@ -12,8 +12,9 @@ namespace corridor::reports {
 // known. A millionth, as for back-ends, would ask for more than a method promises: of the true
 // closures 1 % lie beyond the bound by chance. Had each just its 11.3 of three degrees of freedom,
 // leaving them out would cost 4 %; one that alone holds a loop costs several times that, and two of
-// 216 on a walk cost 10 %. What settles elsewhere has from two thirds to thousands more than the
-// best.
+// 216 on a walk cost 10 %. A false one that was kept and nearly fits costs as little (7 to 13 % on
+// Intel), which recall shows; what settles elsewhere has two thirds to thousands of times more than
+// the best.
 inline constexpr double kFoundAgain_ratio = 0.25;
 
 bool is_found_again(const results::RunResult& result);

@@ -78,7 +78,8 @@ std::vector<std::string> notes_of(const Cases& cases) {
       "Precision: share of the rejected closures that were planted; recall: share of the planted "
       "that were rejected; of a kernel, closures beyond the bound at the solution count as "
       "rejected. Neither exists where nothing was planted or nothing looked for them. A planted "
-      "closure may be true by chance.");
+      "closure may be true by chance, and a false one that was kept may bend the graph too little "
+      "to count: recall shows it.");
   notes.emplace_back(
       "Total time: looking for false closures and solving. Times of runs that did not find the "
       "graph again are those of what they did instead.");
