@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <set>
 
 #include "bench/statistics/quantiles.hpp"
 #include "bench/statistics/wilson.hpp"
@@ -168,9 +170,25 @@ std::string why_no_verdict(const Cases& cases, const std::string& dataset) {
       most, tables::kMinValuesForInterval);
 }
 
+// That a graph is lost among false closures is what such cases are run to find out: one sentence.
+std::set<std::filesystem::path> lost_among_false_closures(const Cases& cases) {
+  std::set<std::filesystem::path> dirs;
+  const Cases disturbed = reports::with_false_closures(cases.of_graphs());
+  for (const reports::Case& entry : disturbed.all()) {
+    if (entry.result.status == results::CaseStatus::kDiverged) dirs.insert(entry.dir);
+  }
+  return dirs;
+}
+
 // "karto on malaga: 1 of 3 timeout", for every series with a case that is not ok.
 std::vector<std::string> outcome_sentences(const Cases& cases) {
   std::vector<std::string> sentences;
+  const std::set<std::filesystem::path> lost = lost_among_false_closures(cases);
+  if (!lost.empty()) {
+    sentences.push_back(fmt::format(
+        "{} of these diverged with false closures or a robust method: see table false-closures.",
+        lost.size()));
+  }
   std::size_t num_not_ok = 0;
   for (const std::string& dataset : cases.datasets()) {
     for (const Series& series : cases.series()) {
@@ -179,6 +197,7 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
       for (const reports::Case* entry : tried) {
         if (entry->result.status == results::CaseStatus::kOk) continue;
         ++num_not_ok;
+        if (lost.contains(entry->dir)) continue;
         ++counts[results::to_text(entry->result.status)];
       }
       for (const auto& [status, count] : counts) {

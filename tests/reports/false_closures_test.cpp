@@ -233,5 +233,16 @@ TEST(Verdict, OfBackEndsLeavesFalseClosuresOut) {
                           HasSubstr("by: gnc 1 of 1 [0.21, 1.00].")));
 }
 
+TEST(Verdict, CountsGraphsLostAmongFalseClosuresOnceAndNamesEveryOtherFailure) {
+  RunResult lost = disturbed("none", 50, 700, 1), late = disturbed("gnc", 50, 0, 1);
+  lost.status = results::CaseStatus::kDiverged;
+  late.status = results::CaseStatus::kTimeout;
+  EXPECT_THAT(html::verdicts(cases_of({lost, late, disturbed("gnc", 10, 0, 1)})).back().sentences,
+              ElementsAre("2 of 3 cases did not end with status ok.",
+                          "1 of these diverged with false closures or a robust method: see table "
+                          "false-closures.",
+                          "graph-batch@gnc-false-50 on a: 1 of 1 timeout."));
+}
+
 }  // namespace
 }  // namespace corridor::reports
