@@ -159,10 +159,9 @@ Cases::Cases(std::vector<Case> cases, std::vector<results::Machine> machines,
   labels_ = series_labels(cases_);
 }
 
-Cases Cases::only(bool is_graph) const {
+Cases Cases::only(const std::function<bool(const results::RunResult&)>& is_wanted) const {
   Cases part = *this;
-  std::erase_if(part.cases_,
-                [&](const Case& entry) { return is_of_graph(entry.result) != is_graph; });
+  std::erase_if(part.cases_, [&](const Case& entry) { return !is_wanted(entry.result); });
   part.labels_ = series_labels(part.cases_);
   return part;
 }

@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -66,8 +67,10 @@ class Cases {
   [[nodiscard]] const std::vector<results::Machine>& machines() const { return machines_; }
   [[nodiscard]] std::vector<std::string> datasets() const;
   // The cases that solved pose graphs, or the others, as a report of their own.
-  [[nodiscard]] Cases of_graphs() const { return only(true); }
-  [[nodiscard]] Cases of_logs() const { return only(false); }
+  [[nodiscard]] Cases of_graphs() const { return only(is_of_graph); }
+  [[nodiscard]] Cases of_logs() const { return only(std::not_fn(is_of_graph)); }
+  // Some of the cases as a report of their own, labels as short as those allow.
+  [[nodiscard]] Cases only(const std::function<bool(const results::RunResult&)>& is_wanted) const;
   // In the order of reports: the floor, references, rivals, the fusion systems, then other names;
   // of one system first what it ships with.
   [[nodiscard]] std::vector<Series> series() const;
@@ -77,8 +80,6 @@ class Cases {
   [[nodiscard]] const std::string& label(const Series& series) const { return labels_.at(series); }
 
  private:
-  [[nodiscard]] Cases only(bool is_graph) const;
-
   std::vector<Case> cases_;
   std::vector<results::Machine> machines_;
   std::vector<std::filesystem::path> run_dirs_;

@@ -24,25 +24,10 @@ struct Variants {
   std::set<std::string> revisions;
 };
 
-// The keys whose values are not the same in all; a key that one of them lacks is among them.
-std::set<std::string> differing_keys(const std::map<std::string, Parameters>& by_hash) {
-  std::map<std::string, std::set<std::string>> values_by_key;
-  std::map<std::string, std::size_t> num_by_key;
-  for (const auto& [hash, parameters] : by_hash) {
-    for (const auto& [key, value] : parameters) {
-      values_by_key[key].insert(value);
-      ++num_by_key[key];
-    }
-  }
-  std::set<std::string> differing;
-  for (const auto& [key, values] : values_by_key) {
-    if (values.size() > 1 || num_by_key[key] < by_hash.size()) differing.insert(key);
-  }
-  return differing;
-}
-
 std::string parameter_text(const Variants& variants, const std::string& hash) {
-  const std::set<std::string> keys = differing_keys(variants.parameters_by_hash);
+  std::vector<Parameters> all;
+  for (const auto& [other, parameters] : variants.parameters_by_hash) all.push_back(parameters);
+  const std::set<std::string> keys = differing_keys(all);
   const Parameters& own = variants.parameters_by_hash.at(hash);
   std::string text;
   for (const std::string& key : keys) {
@@ -96,6 +81,22 @@ void lengthen_doubles(std::map<Series, std::string>& labels) {
 }
 
 }  // namespace
+
+std::set<std::string> differing_keys(const std::vector<Parameters>& all) {
+  std::map<std::string, std::set<std::string>> values_by_key;
+  std::map<std::string, std::size_t> num_by_key;
+  for (const Parameters& parameters : all) {
+    for (const auto& [key, value] : parameters) {
+      values_by_key[key].insert(value);
+      ++num_by_key[key];
+    }
+  }
+  std::set<std::string> differing;
+  for (const auto& [key, values] : values_by_key) {
+    if (values.size() > 1 || num_by_key[key] < all.size()) differing.insert(key);
+  }
+  return differing;
+}
 
 std::map<Series, std::string> series_labels(const std::vector<Case>& cases) {
   std::map<std::string, std::set<std::string>> profiles;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,8 @@ namespace corridor::reports {
 // "fusion (#88adda; at 48762d9+dirty)". What was set by hand always stands there, also where no
 // other series has that name: "karto (set: use_loop_closing=false)".
 std::map<Series, std::string> series_labels(const std::vector<Case>& cases);
+
+// The keys whose values are not the same in all; a key that one of them lacks is among them.
+std::set<std::string> differing_keys(const std::vector<std::map<std::string, std::string>>& all);
 
 }  // namespace corridor::reports

@@ -11,7 +11,6 @@ namespace {
 constexpr double kMargin_ratio = 1.15;  // of a logarithmic axis, beyond the smallest and largest
 constexpr double kMarkRadius_px = 2.5;
 constexpr double kLegendLine_px = 30;
-constexpr int kLinearTicks = 5;
 
 double place(const Axis& axis, double value, double begin_px, double end_px) {
   if (axis.is_logarithmic) return LogScale(axis.low, axis.high, begin_px, end_px)(value);
@@ -21,7 +20,7 @@ double place(const Axis& axis, double value, double begin_px, double end_px) {
 
 std::vector<Tick> ticks_of(const Axis& axis) {
   return axis.is_logarithmic ? log_ticks(axis.low, axis.high)
-                             : linear_ticks(axis.low, axis.high, kLinearTicks);
+                             : linear_ticks(axis.low, axis.high, axis.num_linear_ticks);
 }
 
 void draw_axes(Svg& svg, const PlotArea& area, const Axis& x, const Axis& y) {
@@ -69,6 +68,11 @@ void draw_curves(Svg& svg, const PlotArea& area, const Axis& x, const Axis& y,
   };
   for (const Curve& curve : curves) {
     const std::string name(curve.style->name);
+    for (const Eigen::Vector3d& whisker : curve.whiskers) {
+      const Eigen::Vector2d from_px = at({whisker.x(), whisker.y()});
+      const Eigen::Vector2d to_px = at({whisker.x(), whisker.z()});
+      svg.line(from_px.x(), from_px.y(), to_px.x(), to_px.y(), "whisker line-" + name);
+    }
     for (const Eigen::Vector2d& mark : curve.marks) {
       const Eigen::Vector2d mark_px = at(mark);
       svg.marker(curve.style->marker, mark_px.x(), mark_px.y(), kMarkRadius_px, "dot fill-" + name);

@@ -12,14 +12,16 @@ namespace corridor::figures {
 struct Curve {
   std::string label;
   const SeriesStyle* style = nullptr;
-  std::vector<Eigen::Vector2d> points;  // of the line, by ascending x
-  std::vector<Eigen::Vector2d> marks;   // alone, beside the line
+  std::vector<Eigen::Vector2d> points;         // of the line, by ascending x
+  std::vector<Eigen::Vector2d> marks;          // alone, beside the line
+  std::vector<Eigen::Vector3d> whiskers = {};  // x, and y from and to: an interval of a mark
 };
 
 struct Axis {
   std::string title;
   double low = 0, high = 0;  // low < high; of a logarithmic axis 0 < low
   bool is_logarithmic = true;
+  int num_linear_ticks = 5;  // about
 };
 
 // Where the axes stand.

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "bench/statistics/quantiles.hpp"
+#include "reports/false_closures.hpp"
 #include "reports/metrics.hpp"
 
 namespace corridor::figures {
@@ -84,7 +86,7 @@ std::vector<Figure> report_figures(const Cases& cases, std::vector<std::string>&
     add(error_figure(logs, dataset));
     add(stage_figure(logs, dataset));
   }
-  const Cases graphs = cases.of_graphs();
+  const Cases graphs = reports::without_false_closures(cases.of_graphs());
   for (const char* system : {"graph-batch", "graph-incremental"}) {
     add(profile_figure(graphs, system));
   }
@@ -92,6 +94,11 @@ std::vector<Figure> report_figures(const Cases& cases, std::vector<std::string>&
     add(update_figure(graphs, dataset, problems));
     add(gap_figure(graphs, dataset, problems));
   }
+  add(initial_noise_figure(graphs));
+  const Cases disturbed = reports::with_false_closures(cases.of_graphs());
+  std::set<std::string> backends;
+  for (const Series& series : disturbed.series()) backends.insert(series.backend);
+  for (const std::string& backend : backends) add(false_closure_figure(disturbed, backend));
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
   return figures;

@@ -43,6 +43,12 @@ std::optional<Figure> error_figure(const reports::Cases& cases, const std::strin
 // Share of problems that each back-end of a system that solves graphs solves within a factor of the
 // fastest time; `graphs` has graph cases only, here and below.
 std::optional<Figure> profile_figure(const reports::Cases& graphs, const std::string& system);
+// How often a graph was solved over the noise on its start, a line per back-end; nullopt where
+// nothing started from noise on headings.
+std::optional<Figure> initial_noise_figure(const reports::Cases& graphs);
+// How often a graph was found again over the share of false closures, a line per method; of cases
+// with_false_closures() and one back-end.
+std::optional<Figure> false_closure_figure(const reports::Cases& cases, const std::string& backend);
 // Time of an update over the number of poses.
 std::optional<Figure> update_figure(const reports::Cases& graphs, const std::string& dataset,
                                     std::vector<std::string>& problems);

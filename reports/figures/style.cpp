@@ -87,6 +87,11 @@ const SeriesStyle* system_style(std::string_view system) { return find_style(kSy
 
 const SeriesStyle& spare_style(std::size_t index) { return kSpares[index % kSpares.size()]; }
 
+const SeriesStyle& line_style(std::size_t index) {
+  const std::size_t place = index % (kSpares.size() + kSystems.size());
+  return place < kSpares.size() ? kSpares[place] : kSystems[place - kSpares.size()].style;
+}
+
 const SeriesStyle& truth_style() { return kTruth; }
 
 std::string figure_css() {
@@ -100,6 +105,8 @@ std::string figure_css() {
     dark += fmt::format(".figure .line-{}{{stroke:{}}}.figure .fill-{}{{fill:{}}}", style.name,
                         style.dark, style.name, style.dark);
   });
+  // Behind the dashes of the lines, which a whisker is too short for.
+  light += ".figure .whisker{stroke-width:1.2;stroke-opacity:0.6;stroke-dasharray:none}\n";
   return fmt::format("{}@media screen and (prefers-color-scheme:dark){{{}}}\n", light, dark);
 }
 

@@ -31,6 +31,9 @@ struct SeriesStyle {
 const SeriesStyle* system_style(std::string_view system);
 // Styles for everything else; they repeat after six.
 const SeriesStyle& spare_style(std::size_t index);
+// Styles for figures without systems: the spares, then those of systems; they repeat after
+// fourteen.
+const SeriesStyle& line_style(std::size_t index);
 const SeriesStyle& truth_style();
 
 // The style sheet of all figures, for light and dark: stands in each SVG file and once in the page.

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <set>
 
 #include "bench/statistics/quantiles.hpp"
+#include "bench/statistics/wilson.hpp"
+#include "reports/false_closures.hpp"
 #include "reports/graph_cases.hpp"
 #include "reports/html/standing.hpp"
 #include "reports/metrics.hpp"
@@ -166,9 +170,25 @@ std::string why_no_verdict(const Cases& cases, const std::string& dataset) {
       most, tables::kMinValuesForInterval);
 }
 
+// That a graph is lost among false closures is what such cases are run to find out: one sentence.
+std::set<std::filesystem::path> lost_among_false_closures(const Cases& cases) {
+  std::set<std::filesystem::path> dirs;
+  const Cases disturbed = reports::with_false_closures(cases.of_graphs());
+  for (const reports::Case& entry : disturbed.all()) {
+    if (entry.result.status == results::CaseStatus::kDiverged) dirs.insert(entry.dir);
+  }
+  return dirs;
+}
+
 // "karto on malaga: 1 of 3 timeout", for every series with a case that is not ok.
 std::vector<std::string> outcome_sentences(const Cases& cases) {
   std::vector<std::string> sentences;
+  const std::set<std::filesystem::path> lost = lost_among_false_closures(cases);
+  if (!lost.empty()) {
+    sentences.push_back(fmt::format(
+        "{} of these diverged with false closures or a robust method: see table false-closures.",
+        lost.size()));
+  }
   std::size_t num_not_ok = 0;
   for (const std::string& dataset : cases.datasets()) {
     for (const Series& series : cases.series()) {
@@ -177,6 +197,7 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
       for (const reports::Case* entry : tried) {
         if (entry->result.status == results::CaseStatus::kOk) continue;
         ++num_not_ok;
+        if (lost.contains(entry->dir)) continue;
         ++counts[results::to_text(entry->result.status)];
       }
       for (const auto& [status, count] : counts) {
@@ -206,7 +227,8 @@ std::vector<std::string> outcome_sentences(const Cases& cases) {
 
 // Who solved a graph every time, and which of them needed the least time. No comparison: the table
 // and the performance profiles have all times.
-Verdict graph_verdict(const Cases& cases, const std::string& dataset) {
+void append_graph_verdict(const Cases& cases, Verdict& verdict) {
+  const std::string& dataset = verdict.subject;
   std::size_t num_series = 0;
   std::size_t num_solved = 0;
   const Series* fastest = nullptr;
@@ -227,7 +249,7 @@ Verdict graph_verdict(const Cases& cases, const std::string& dataset) {
     fastest = &series;
     least_s = median_s;
   }
-  Verdict verdict{dataset, {}, {}};
+  if (num_series == 0) return;
   verdict.sentences.push_back(
       fmt::format("Solved every time by {} of {} ways and back-ends.", num_solved, num_series));
   if (fastest != nullptr) {
@@ -235,15 +257,74 @@ Verdict graph_verdict(const Cases& cases, const std::string& dataset) {
                                             cases.label(*fastest), least_s,
                                             counted(cases.of(dataset, *fastest).size(), "run")));
   }
-  return verdict;
+}
+
+// The hardest that the suite has.
+constexpr double kVerdictShare = 0.5;
+
+// A method's runs with that share of false closures.
+struct Recovery {
+  std::string method, label;
+  std::int64_t num_found = 0, num_tried = 0;
+};
+
+std::vector<Recovery> recoveries(const Cases& cases, const std::string& dataset) {
+  std::vector<Recovery> all;
+  for (const Series& series : cases.series()) {
+    const auto tried = cases.of(dataset, series);
+    if (tried.empty() || reports::false_share_of(tried.front()->result) != kVerdictShare) continue;
+    const auto found = std::count_if(tried.begin(), tried.end(), [](const reports::Case* entry) {
+      return reports::is_found_again(entry->result);
+    });
+    all.push_back({reports::method_of(tried.front()->result), cases.label(series), found,
+                   static_cast<std::int64_t>(tried.size())});
+  }
+  const auto share = [](const Recovery& one) {
+    return static_cast<double>(one.num_found) / static_cast<double>(one.num_tried);
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const Recovery& left, const Recovery& right) {
+    return share(left) > share(right);
+  });
+  return all;
+}
+
+// Which method kept which success. `cases` are those with_false_closures().
+void append_closure_verdict(const Cases& cases, Verdict& verdict) {
+  if (cases.of(verdict.subject).empty()) return;
+  const std::vector<Recovery> all = recoveries(cases, verdict.subject);
+  if (all.empty()) {
+    verdict.sentences.push_back(
+        fmt::format("No verdict on false closures: nothing was run with {:.0f} % of them.",
+                    100 * kVerdictShare));
+    return;
+  }
+  std::map<std::string, int> num_of_method;
+  for (const Recovery& one : all) ++num_of_method[one.method];
+  std::vector<std::string> parts;
+  for (const Recovery& one : all) {
+    const bool is_alone = num_of_method[one.method] == 1;
+    const auto interval = statistics::wilson_interval(one.num_found, one.num_tried);
+    parts.push_back(
+        fmt::format("{} {} of {} [{:.2f}, {:.2f}]",
+                    is_alone ? one.method : fmt::format("{} ({})", one.method, one.label),
+                    one.num_found, one.num_tried, interval->low, interval->high));
+  }
+  verdict.sentences.push_back(fmt::format("With {:.0f} % of the closures false found again by: {}.",
+                                          100 * kVerdictShare, fmt::join(parts, "; ")));
 }
 
 }  // namespace
 
 std::vector<Verdict> verdicts(const Cases& cases) {
   std::vector<Verdict> all;
-  for (const std::string& dataset : cases.of_graphs().datasets()) {
-    all.push_back(graph_verdict(cases, dataset));
+  const Cases graphs = cases.of_graphs();
+  const Cases back_ends = reports::without_false_closures(graphs);
+  const Cases disturbed = reports::with_false_closures(graphs);
+  for (const std::string& dataset : graphs.datasets()) {
+    Verdict verdict{dataset, {}, {}};
+    append_graph_verdict(back_ends, verdict);
+    append_closure_verdict(disturbed, verdict);
+    all.push_back(std::move(verdict));
   }
   for (const std::string& dataset : cases.of_logs().datasets()) {
     Verdict verdict{dataset, {}, {}};

@@ -16,7 +16,8 @@ struct Verdict {
 
 // Per data set: how the most accurate series and the floor (wheels and gyro) stand against every
 // other one, and whose maps are too short or too long; in the details the fusion systems and every
-// map. Per pose graph who solved it and who in the least time. At the end which cases failed. Plain
+// map. Per pose graph who solved it and who in the least time, and what
+// found it again with half of its closures false. At the end which cases failed. Plain
 // text, to be escaped.
 std::vector<Verdict> verdicts(const reports::Cases& cases);
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "bench/statistics/wilson.hpp"
 #include "reports/graph_cases.hpp"
+#include "reports/tables/graph_rows.hpp"
 #include "reports/tables/report_tables.hpp"
 #include "reports/tables/summary.hpp"
 #include "reports/timing.hpp"
@@ -17,90 +17,40 @@ using reports::Cases;
 using reports::Series;
 using results::RunResult;
 
-constexpr int kDigits = 3;
-
-Metric shown(const char* key, const char* name, int decimals,
-             std::function<std::optional<double>(const RunResult&)> value) {
-  return {key, name, "", decimals, std::move(value), kDigits};
-}
-
 std::optional<double> per_update(const RunResult& r, const std::optional<std::int64_t>& total) {
   if (!total || !r.variables || *r.variables == 0) return std::nullopt;
   return static_cast<double>(*total) / static_cast<double>(*r.variables);
 }
 
 std::vector<Metric> whole_metrics() {
-  return {shown("chi2", "chi2", 4, [](const RunResult& r) { return r.chi2; }),
-          shown("wall_s", "total [s]", 4, [](const RunResult& r) { return r.wall_s; }),
-          shown("cpu_s", "CPU [s]", 4, [](const RunResult& r) { return r.cpu_s; }),
-          shown("iterations", "iterations", 0,
-                [](const RunResult& r) -> std::optional<double> {
-                  if (!r.iterations) return std::nullopt;
-                  return static_cast<double>(*r.iterations);
-                }),
-          shown("peak_rss_mib", "peak memory [MiB]", 0,
-                [](const RunResult& r) { return r.peak_rss_mib; }),
-          shown("position_rmse_m", "position error [m]", 3,
-                [](const RunResult& r) { return r.final_scores.position_rmse_m; })};
+  return {graph_metric("chi2", "chi2", 4, [](const RunResult& r) { return r.chi2; }),
+          graph_metric("wall_s", "total [s]", 4, [](const RunResult& r) { return r.wall_s; }),
+          graph_metric("cpu_s", "CPU [s]", 4, [](const RunResult& r) { return r.cpu_s; }),
+          graph_metric("iterations", "iterations", 0,
+                       [](const RunResult& r) -> std::optional<double> {
+                         if (!r.iterations) return std::nullopt;
+                         return static_cast<double>(*r.iterations);
+                       }),
+          graph_metric("peak_rss_mib", "peak memory [MiB]", 0,
+                       [](const RunResult& r) { return r.peak_rss_mib; }),
+          graph_metric("position_rmse_m", "position error [m]", 3,
+                       [](const RunResult& r) { return r.final_scores.position_rmse_m; })};
 }
 
 std::vector<Metric> run_metrics() {
-  return {shown("step_mean_us", "mean [us]", 1, [](const RunResult& r) { return r.step_mean_us; }),
-          shown("step_p50_us", "p50 [us]", 1, [](const RunResult& r) { return r.step_p50_us; }),
-          shown("step_p95_us", "p95 [us]", 1, [](const RunResult& r) { return r.step_p95_us; }),
-          shown("step_p99_us", "p99 [us]", 1, [](const RunResult& r) { return r.step_p99_us; }),
-          shown("step_max_us", "max [us]", 1, [](const RunResult& r) { return r.step_max_us; }),
-          shown("eliminated_per_pose", "eliminated per pose", 1,
-                [](const RunResult& r) { return per_update(r, r.eliminated); }),
-          shown("relinearised_per_pose", "relinearised per pose", 1,
-                [](const RunResult& r) { return per_update(r, r.relinearised); }),
-          shown("run_newest_gap_max_m", "newest pose off by at most [m]", 3,
-                [](const RunResult& r) { return r.run_newest_gap_max_m; })};
-}
-
-// A relative gap: of powers of ten.
-std::string gap_text(const std::optional<double>& gap_ratio) {
-  return gap_ratio ? fmt::format("{:.1e}", *gap_ratio) : std::string();
-}
-
-// The largest over the repeats; text, since it spans ten powers of ten.
-Cell largest_gap(const std::vector<const Case*>& tried,
-                 std::optional<double> (*gap_of)(const RunResult&)) {
-  std::optional<double> largest;
-  for (const Case* entry : tried) {
-    const std::optional<double> gap = gap_of(entry->result);
-    if (gap && (!largest || *gap > *largest)) largest = gap;
-  }
-  if (!largest) return Missing{"none"};
-  return gap_text(largest);
-}
-
-struct Share {
-  std::int64_t solved = 0;
-  std::int64_t tried = 0;
-};
-
-Share share_of(const std::vector<const Case*>& tried) {
-  const auto solved = std::count_if(tried.begin(), tried.end(), [](const Case* entry) {
-    return reports::is_solved(entry->result);
-  });
-  return {solved, static_cast<std::int64_t>(tried.size())};
-}
-
-// "9/9", and for programs the share with the ends of its interval.
-void add_share(const Share& share, std::vector<Cell>& row) {
-  row.emplace_back(fmt::format("{}/{}", share.solved, share.tried));
-  const auto interval = statistics::wilson_interval(share.solved, share.tried);
-  row.emplace_back(fmt::format("{:.2f} to {:.2f}", interval->low, interval->high));
-}
-
-Table begun(const char* id, const char* caption) {
-  Table table;
-  table.id = id;
-  table.caption = caption;
-  table.columns = {{"graph", "dataset", ColumnKind::kText},
-                   {"mode and back-end", "system", ColumnKind::kText}};
-  return table;
+  return {
+      graph_metric("step_mean_us", "mean [us]", 1,
+                   [](const RunResult& r) { return r.step_mean_us; }),
+      graph_metric("step_p50_us", "p50 [us]", 1, [](const RunResult& r) { return r.step_p50_us; }),
+      graph_metric("step_p95_us", "p95 [us]", 1, [](const RunResult& r) { return r.step_p95_us; }),
+      graph_metric("step_p99_us", "p99 [us]", 1, [](const RunResult& r) { return r.step_p99_us; }),
+      graph_metric("step_max_us", "max [us]", 1, [](const RunResult& r) { return r.step_max_us; }),
+      graph_metric("eliminated_per_pose", "eliminated per pose", 1,
+                   [](const RunResult& r) { return per_update(r, r.eliminated); }),
+      graph_metric("relinearised_per_pose", "relinearised per pose", 1,
+                   [](const RunResult& r) { return per_update(r, r.relinearised); }),
+      graph_metric("run_newest_gap_max_m", "newest pose off by at most [m]", 3,
+                   [](const RunResult& r) { return r.run_newest_gap_max_m; })};
 }
 
 template <class AddRow>
@@ -119,24 +69,14 @@ void for_each_row(const Cases& cases, Table& table, bool is_pose_by_pose, AddRow
   }
 }
 
-void add_columns(const std::vector<Metric>& metrics, Table& table) {
-  for (const Metric& metric : metrics) {
-    table.columns.push_back({metric.name, metric.key, ColumnKind::kEstimate, true});
-  }
-}
-
-void add_cells(const Cases& cases, const std::string& dataset, const Series& series,
-               const std::vector<Metric>& metrics, std::vector<Cell>& row) {
-  for (const Metric& metric : metrics) row.push_back(summarise(cases, dataset, series, metric));
-}
-
 }  // namespace
 
 Table back_end_table(const Cases& cases) {
-  Table table = begun("backends",
-                      "Pose graphs: how often the best known chi2 was reached, how far off the "
-                      "worst run was, and what it took; median over repeats [95 % bootstrap "
-                      "interval of the median] (repeats with a value / repeats tried)");
+  Table table =
+      graph_table("backends",
+                  "Pose graphs: how often the best known chi2 was reached, how far off the "
+                  "worst run was, and what it took; median over repeats [95 % bootstrap "
+                  "interval of the median] (repeats with a value / repeats tried)");
   table.columns.push_back({"solved", "solved", ColumnKind::kText});
   table.columns.push_back({"95 % interval of the share", "solved_interval", ColumnKind::kText});
   table.columns.push_back({"largest chi2 / best - 1", "chi2_gap_ratio", ColumnKind::kText});
@@ -145,7 +85,7 @@ Table back_end_table(const Cases& cases) {
   for_each_row(
       cases, table, false,
       [&](const auto& dataset, const auto& series, const auto& tried, std::vector<Cell>& row) {
-        add_share(share_of(tried), row);
+        add_share(tried, reports::is_solved, row);
         row.push_back(largest_gap(tried, [](const RunResult& r) { return r.chi2_gap_ratio; }));
         add_cells(cases, dataset, series, metrics, row);
       });
@@ -163,10 +103,11 @@ Table back_end_table(const Cases& cases) {
 }
 
 Table back_end_run_table(const Cases& cases) {
-  Table table = begun("backend-updates",
-                      "Pose graphs that come pose by pose: time of an update, work, and the gap to "
-                      "the batch optimum of the graph so far; median over repeats [95 % bootstrap "
-                      "interval of the median] (repeats with a value / repeats tried)");
+  Table table =
+      graph_table("backend-updates",
+                  "Pose graphs that come pose by pose: time of an update, work, and the gap to "
+                  "the batch optimum of the graph so far; median over repeats [95 % bootstrap "
+                  "interval of the median] (repeats with a value / repeats tried)");
   const std::vector<Metric> metrics = run_metrics();
   add_columns(metrics, table);
   table.columns.push_back({"gap along the run, p50", "run_gap_p50_ratio", ColumnKind::kText});

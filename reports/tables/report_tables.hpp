@@ -25,6 +25,9 @@ Table relation_table(const reports::Cases& cases);
 Table back_end_table(const reports::Cases& cases);
 // The same pose by pose: time per update, work per update, gap along the run.
 Table back_end_run_table(const reports::Cases& cases);
+// What methods against false loop closures make of graphs with planted ones; of cases
+// with_false_closures() alone.
+Table false_closure_table(const reports::Cases& cases);
 // Time, memory and real-time factor of whole runs.
 Table cost_table(const reports::Cases& cases);
 // Time per stage.

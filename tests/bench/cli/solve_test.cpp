@@ -244,5 +244,32 @@ TEST(Solve, AGraphWithoutASolutionIsAnAnswerThatNamesThePose) {
   EXPECT_EQ(contents_of(folder.path()), std::vector<std::string>{"t.g2o"});
 }
 
+TEST(Solve, PlantsTheFalseClosuresThatRunPlantsForTheSameSeed) {
+  const ScratchFolder folder;
+  const Answer ran =
+      run_program(folder,
+                  "run --system graph-batch@gnc-false-30 --system graph-batch@none-false-30 "
+                  "--backend gauss-newton --dataset walk-200-s1 --seed 1005 --seeds 1 --out o "
+                  "--no-report");
+  ASSERT_NE(ran.exit_code, 2) << ran.err;
+  int num_records = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "o/runs")) {
+    const Json record = Json::parse(text_of(entry.path() / "result.json"));
+    const std::string robust = record["parameters"]["robust"];
+    const Answer solved = run_program(folder,
+                                      "solve walk-200-s1 --backend gauss-newton --init odometry "
+                                      "--false-closures 0.3 --seed 1005 --json --robust " +
+                                          robust);
+    const Json json = Json::parse(solved.out);
+    EXPECT_EQ(json["false_closures"], record["false_closures"]) << robust;
+    EXPECT_EQ(json["chi2"], record["chi2"]) << robust;
+    EXPECT_EQ(json["rejected_edges"], record["rejected_closures"]) << robust;
+    EXPECT_EQ(json["rejection_precision"], record["rejection_precision"]) << robust;
+    EXPECT_EQ(json["rejection_recall"], record["rejection_recall"]) << robust;
+    ++num_records;
+  }
+  EXPECT_EQ(num_records, 2);
+}
+
 }  // namespace
 }  // namespace corridor::testing

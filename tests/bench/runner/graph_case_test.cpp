@@ -16,6 +16,9 @@ namespace {
 
 using results::CaseStatus;
 
+// Solved within a millisecond.
+constexpr const char* kWalk = "walk-200-s1";
+
 Suite suite_of(const std::vector<std::string>& systems, const std::vector<std::string>& datasets) {
   Suite suite;
   suite.name = "test";
@@ -185,6 +188,87 @@ TEST_F(GraphCase, ThatEndsFarFromTheBestIsLost) {
   EXPECT_EQ(stopped.status, CaseStatus::kDiverged);
   EXPECT_EQ(stopped.status_message, "the limit of iterations came before convergence");
   EXPECT_TRUE(stopped.chi2_gap_ratio.has_value()) << "its error stays in every table";
+}
+
+TEST_F(GraphCase, WithFalseClosuresSaysHowManyWerePlantedAndWhatWasRejected) {
+  const results::RunResult result =
+      run(only_case("graph-batch@gnc-false-30", "gauss-newton", kWalk));
+  EXPECT_EQ(result.status, CaseStatus::kOk) << result.status_message;
+  // 32 closures of the walk's own: 14 false ones are 30 % of 46.
+  EXPECT_EQ(result.false_closures, 14);
+  EXPECT_EQ(result.rejected_closures, 14);
+  EXPECT_EQ(result.rejection_precision, 1.0);
+  EXPECT_EQ(result.rejection_recall, 1.0);
+  EXPECT_EQ(result.parameters.at("robust"), "gnc");
+  EXPECT_EQ(result.parameters.at("false_closures"), "0.3");
+  // Of the true edges alone, against an optimum without false ones.
+  EXPECT_NEAR(*result.chi2_gap_ratio, 0, 1e-6);
+}
+
+TEST_F(GraphCase, WithFalseClosuresIsLostWhereNothingIsDoneAgainstThem) {
+  const results::RunResult result =
+      run(only_case("graph-batch@none-false-30", "gauss-newton", kWalk));
+  EXPECT_EQ(result.status, CaseStatus::kDiverged);
+  EXPECT_EQ(result.status_message.rfind("lost: chi2 ", 0), 0U) << result.status_message;
+  EXPECT_EQ(result.false_closures, 14);
+  EXPECT_FALSE(result.rejected_closures.has_value()) << "nothing looked for them";
+  EXPECT_FALSE(result.rejection_recall.has_value());
+  EXPECT_GT(*result.chi2_gap_ratio, 1) << "its error stays in every table";
+}
+
+TEST_F(GraphCase, WithoutFalseClosuresHasNoPrecisionOrRecall) {
+  const results::RunResult none = run(only_case("graph-batch@none-false-0", "gauss-newton", kWalk));
+  EXPECT_FALSE(none.false_closures.has_value());
+  const results::RunResult gnc = run(only_case("graph-batch@gnc-false-0", "gauss-newton", kWalk));
+  EXPECT_EQ(gnc.false_closures, 0);
+  EXPECT_EQ(gnc.rejected_closures, 0);
+  EXPECT_FALSE(gnc.rejection_precision.has_value());
+  EXPECT_FALSE(gnc.rejection_recall.has_value());
+}
+
+TEST_F(GraphCase, PlantsTheSameFalseClosuresForTheSameSeedAlone) {
+  CaseSpec spec = only_case("graph-batch@none-false-30", "gauss-newton", kWalk);
+  const double chi2 = *run(spec).chi2;
+  EXPECT_EQ(*run(spec).chi2, chi2);
+  spec.system_seed += 1;
+  EXPECT_NE(*run(spec).chi2, chi2);
+}
+
+// One case with what a suite sets by hand for its back-end.
+CaseSpec case_with(const ParamValues& of_gauss_newton) {
+  Suite suite = suite_of({"graph-batch@odometry"}, {kWalk});
+  suite.backends = {"gauss-newton"};
+  suite.overrides["gauss-newton"] = of_gauss_newton;
+  return plan_of(suite).cases.at(0);
+}
+
+TEST_F(GraphCase, HasTheBackEndThatWasSetByHand) {
+  const results::RunResult shipped = run(case_with({}));
+  const results::RunResult stopped = run(case_with({{"max_iterations", "1"}}));
+  EXPECT_EQ(shipped.status, CaseStatus::kOk);
+  EXPECT_EQ(stopped.status, CaseStatus::kDiverged) << "the task's limit is 100";
+  EXPECT_EQ(stopped.status_message, "the limit of iterations came before convergence");
+  EXPECT_EQ(stopped.iterations, 1);
+  EXPECT_EQ(stopped.overrides->at("gauss-newton.max_iterations"), "1");
+  EXPECT_NE(stopped.parameters_hash, shipped.parameters_hash) << "never pooled";
+}
+
+TEST_F(GraphCase, WithTheOtherFactorisationEndsAtTheSameOptimum) {
+  const results::RunResult shipped = run(case_with({}));
+  const results::RunResult cholmod = run(case_with({{"linear", "cholmod"}}));
+  EXPECT_EQ(cholmod.status, CaseStatus::kOk);
+  EXPECT_NEAR(*cholmod.chi2 / *shipped.chi2, 1, 1e-9);
+  EXPECT_NE(*cholmod.chi2, *shipped.chi2) << "rounded alike: not another factorisation";
+  EXPECT_NE(cholmod.parameters_hash, shipped.parameters_hash);
+}
+
+TEST_F(GraphCase, IsRefusedWhereItsBackEndHasNoSuchParameter) {
+  CaseSpec spec = case_with({});
+  spec.overrides = {{"gauss-newton.liner", "cholmod"}};
+  const auto refused = run_case(spec, {}, folder_.path(), 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().error.to_line().find("linear"), std::string::npos)
+      << refused.error().error.to_line();
 }
 
 TEST_F(GraphCase, OfASystemThatNeedsALogIsRefusedAndTheOtherWayRound) {
