@@ -6,6 +6,7 @@
 #include <new>
 
 #include "slam/core/expect.hpp"
+#include "slam/linear/one_thread.hpp"
 
 namespace corridor::linear {
 namespace {
@@ -140,6 +141,7 @@ int SparseCholesky::eliminate(const BlockMatrix& matrix, double damping) {
   const double* values =
       damping > 0 ? impl_->damped_values(lower, matrix.starts(), damping) : lower.valuePtr();
   cholmod_sparse view = view_of(lower, values);
+  const OneThread one_thread;
   cholmod_factorize(&view, impl_->factor, &impl_->common);
   // Also if the factor has more entries than CHOLMOD can count.
   if (impl_->common.status < CHOLMOD_OK) throw std::bad_alloc();

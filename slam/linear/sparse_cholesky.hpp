@@ -17,9 +17,9 @@ enum class CholmodMethod {
   kAuto,        // supernodal from kSupernodalSwitch flops per nonzero of the factor
 };
 
-// CHOLMOD's own switch is at 40. On graphs of 400 to 40,000 poses column by column was the faster
-// one up to 73 (22.6 against 24.3 ms), supernodal from 76 (3.5 against 4.1 ms).
-inline constexpr double kSupernodalSwitch = 75;
+// Near CHOLMOD's own switch, 40. On graphs of 400 to 40,000 poses column by column was the faster
+// one up to 37 flops per nonzero (2.7 against 4.2 ms), supernodal from 53 (0.83 against 0.93 ms).
+inline constexpr double kSupernodalSwitch = 45;
 
 class SparseCholesky final : public LinearSolver {
  public:

@@ -14,6 +14,7 @@
 #include "slam/backend/ceres/ceres_problem.hpp"
 #include "slam/backend/ceres/unheld_variable.hpp"
 #include "slam/core/expect.hpp"
+#include "slam/linear/one_thread.hpp"
 
 namespace corridor::backend {
 namespace {
@@ -164,6 +165,7 @@ class CeresBackEnd final : public BackEnd {
     }
     const SilentLog silence;
     problem_.set_blocks(values_);
+    const linear::OneThread one_thread;  // of CHOLMOD, as of Ceres itself
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_.problem(), &summary);
     report.status = status_of(summary);
