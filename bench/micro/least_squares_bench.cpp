@@ -81,9 +81,9 @@ void ceres(benchmark::State& state) {
 void ceres_tuned(benchmark::State& state) {
   solve(state, [] { return backend::make_ceres(backend::tuned_ceres_params()); });
 }
-void ceres_tuned_on_cholmod(benchmark::State& state) {
+void ceres_tuned_on_cxsparse(benchmark::State& state) {
   backend::CeresParams params = backend::tuned_ceres_params();
-  params.sparse_library = "SUITE_SPARSE";
+  params.sparse_library = "CX_SPARSE";
   solve(state, [&] { return backend::make_ceres(params); });
 }
 BENCHMARK(gauss_newton)
@@ -102,8 +102,8 @@ BENCHMARK(ceres_tuned)
     ->Arg(100)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(ceres_tuned_on_cholmod)
-    ->Name("backend/ceres_tuned_on_cholmod")
+BENCHMARK(ceres_tuned_on_cxsparse)
+    ->Name("backend/ceres_tuned_on_cxsparse")
     ->Arg(100)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond);

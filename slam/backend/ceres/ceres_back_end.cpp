@@ -165,7 +165,8 @@ class CeresBackEnd final : public BackEnd {
     }
     const SilentLog silence;
     problem_.set_blocks(values_);
-    const linear::OneThread one_thread;  // of CHOLMOD, as of Ceres itself
+    std::optional<linear::OneThread> one_thread;
+    if (params_.use_one_thread) one_thread.emplace();
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_.problem(), &summary);
     report.status = status_of(summary);
@@ -202,7 +203,7 @@ std::unique_ptr<BackEnd> make_ceres(const CeresParams& params) {
 CeresParams tuned_ceres_params() {
   CeresParams params;
   params.initial_trust_region_radius = 1e16;  // Ceres' own limit
-  params.sparse_library = "CX_SPARSE";
+  params.use_one_thread = true;
   return params;
 }
 
