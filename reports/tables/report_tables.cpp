@@ -14,6 +14,7 @@ std::vector<Table> report_tables(const reports::Cases& cases) {
                                comparison_table(logs),
                                relation_table(logs),
                                back_end_table(true_graphs),
+                               back_end_ratio_table(true_graphs),
                                back_end_run_table(true_graphs),
                                false_closure_table(reports::with_false_closures(graphs)),
                                cost_table(logs),

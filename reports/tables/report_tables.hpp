@@ -23,6 +23,9 @@ Table comparison_table(const reports::Cases& cases);
 Table relation_table(const reports::Cases& cases);
 // Pose graphs: how often the best known chi2 was reached, the gap to it, time and memory.
 Table back_end_table(const reports::Cases& cases);
+// Their times over those of Ceres at once from odometry, repeat by repeat; what solved nothing has
+// no row.
+Table back_end_ratio_table(const reports::Cases& cases);
 // The same pose by pose: time per update, work per update, gap along the run.
 Table back_end_run_table(const reports::Cases& cases);
 // What methods against false loop closures make of graphs with planted ones; of cases

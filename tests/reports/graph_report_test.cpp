@@ -72,6 +72,30 @@ TEST(BackEndTable, HasARowPerGraphAndBackEndWithTheWorstGapAndTheShareSolved) {
   EXPECT_TRUE(tables::back_end_run_table(two_back_ends()).rows.empty()) << "nothing pose by pose";
 }
 
+TEST(BackEndRatioTable, DividesRepeatByRepeatByTheTimesOfCeresFromOdometry) {
+  std::vector<results::RunResult> results;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto time_s = static_cast<double>(seed);
+    results.push_back(graph_result("ceres", "a", time_s, 1e-9, seed));
+    results.push_back(graph_result("fast", "a", time_s / 4, 1e-9, seed));
+    results.push_back(graph_result("lost", "a", time_s / 8, 1e-3, seed));
+    results.push_back(graph_result("few", "a", time_s, seed < 6 ? 1e-9 : 1e-3, seed));
+  }
+  const tables::Table table = tables::back_end_ratio_table(cases_of(results));
+  ASSERT_EQ(table.rows.size(), 3U) << "lost has no row";
+  for (const auto& row : table.rows) {
+    EXPECT_TRUE(std::holds_alternative<tables::Missing>(row[3])) << "no ceres@tuned was run";
+    const std::string name = std::get<std::string>(row[1]);
+    if (name.find("few") != std::string::npos) {
+      EXPECT_EQ(std::get<tables::Missing>(row[2]).reason, "fewer than 6 pairs");
+    } else {
+      const double ratio = name.find("fast") != std::string::npos ? 0.25 : 1.0;
+      EXPECT_EQ(std::get<tables::Estimate>(row[2]).median, ratio);
+      EXPECT_EQ(std::get<tables::Estimate>(row[2]).n, 6);
+    }
+  }
+}
+
 TEST(ReportTables, KeepGraphsOutOfTheTablesOfLogsAndFailuresInTheirs) {
   results::RunResult lost = graph_result("fast", "a", 1, 5);
   lost.status = results::CaseStatus::kDiverged;
