@@ -24,7 +24,7 @@ struct Target {
   bool (*read)(std::string_view bytes);
 };
 
-constexpr std::array<Target, 22> kTargets = {{{"bag", bag},
+constexpr std::array<Target, 23> kTargets = {{{"bag", bag},
                                               {"bag_chunk", bag_chunk},
                                               {"bag_framing", bag_framing},
                                               {"carmen", carmen},
@@ -43,6 +43,7 @@ constexpr std::array<Target, 22> kTargets = {{{"bag", bag},
                                               {"scenario", scenario},
                                               {"ticks", ticks},
                                               {"topics", topics},
+                                              {"true_poses", true_poses},
                                               {"truth", truth},
                                               {"tum", tum},
                                               {"world", world}}};

@@ -25,6 +25,7 @@ bool ros_map(std::string_view bytes);
 bool scenario(std::string_view bytes);
 bool ticks(std::string_view bytes);
 bool topics(std::string_view bytes);
+bool true_poses(std::string_view bytes);
 bool truth(std::string_view bytes);
 bool tum(std::string_view bytes);
 bool world(std::string_view bytes);
