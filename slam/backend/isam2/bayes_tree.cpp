@@ -124,8 +124,8 @@ std::span<const int> BayesTree::unsettled() {
 }
 
 void BayesTree::detach() {
-  detached_ = std::move(waiting_);
-  waiting_.clear();
+  detached_.clear();
+  detached_.swap(waiting_);
   for (const int number : touched_) {
     for (const int variable : at(number).frontals()) detached_.push_back(variable);
     for (int child = at(number).first_child; child != kNone; child = at(child).next_sibling) {

@@ -1,9 +1,10 @@
-// What can be read of isam2 between updates.
+// What can be read of isam2 between updates, and what updates leave alone.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "slam/backend/isam2/isam2.hpp"
 #include "tests/slam/backend/random_problems.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 namespace corridor::backend {
 namespace {
@@ -46,6 +47,29 @@ RC_GTEST_PROP(Isam2, AnUpdateThatFailsOrACovarianceLeavesEveryPoseWhereItWas,
   expected.merge(set);
   RC_ASSERT(solver->marginal_covariance(pose_key(3)).has_value());
   expect_reads(*solver, expected);
+}
+
+// Elimination where the cliques are, back-substitution and the measure of steps.
+TEST(Isam2, AnUpdateThatOnlyRelinearisesAllocatesNothing) {
+  if (!testing::kCountsAllocations) GTEST_SKIP() << "not under AddressSanitizer";
+  const auto problem = testing::random_walk(1);
+  const auto solver = make_isam2({});
+  (void)solver->update(problem.factors, problem.initial, {});
+  const graph::Values nothing_new;
+  int before = testing::num_allocations;
+  for (int round = 0; round < 10; ++round) {
+    graph::Values moved;
+    moved.set_pose(5, solver->pose(5).plus({0.01, 0.02, 0.03}));
+    solver->set_values(moved);
+    before = testing::num_allocations;
+    const BackEndReport report = solver->update({}, nothing_new, {});
+    EXPECT_GT(report.num_eliminated, 0);
+  }
+  EXPECT_EQ(testing::num_allocations, before);
+  // The counter counts.
+  graph::Values moved;
+  moved.set_pose(5, solver->pose(5));
+  EXPECT_GT(testing::num_allocations, before);
 }
 
 }  // namespace

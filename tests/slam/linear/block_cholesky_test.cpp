@@ -2,29 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-
 #include "slam/linear/sparse_cholesky.hpp"
 #include "tests/slam/linear/random_blocks.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kCountsAllocations = false;  // AddressSanitizer brings its own malloc()
-std::atomic<int> num_allocations{0};
-#else
-constexpr bool kCountsAllocations = true;
-std::atomic<int> num_allocations{0};
-
-// Takes the place of glibc's, which stands behind operator new, Eigen and CHOLMOD, in this program.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
-  ++num_allocations;
-  return __libc_malloc(size);
-}
-#endif
+#include "tests/support/allocation_counter.hpp"
 
 namespace corridor::linear {
 namespace {
+
+using testing::kCountsAllocations;
+using testing::num_allocations;
 
 int allocations_of_a_step(LinearSolver& solver, const BlockMatrix& matrix) {
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(matrix.num_rows());
