@@ -27,6 +27,7 @@
 #include "bench/cli/solve_command.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/runner/git_revision.hpp"
+#include "reports/figures/tree_figure.hpp"
 #include "reports/report.hpp"
 
 namespace {
@@ -73,7 +74,7 @@ std::vector<std::pair<const CLI::App*, Action>> declare(CLI::App& app, Commands&
   add(app, "evaluate", "Score a trajectory and a map from files", c.evaluate,
       [&c] { return c.evaluate.run(); });
   add(app, "solve", "Solve a pose graph with a back-end and measure it", c.solve,
-      [&c] { return c.solve.run(); });
+      [&c] { return c.solve.run(corridor::figures::tree_svg); });
   add(app, "report", "Write tables, figures and page from finished runs", c.report,
       [&c] { return c.report.run(corridor::reports::write_report); });
   CLI::App* data = app.add_subcommand("data", "Data sets on this machine");

@@ -16,6 +16,10 @@ namespace CLI {
 class App;
 }
 
+namespace corridor::backend {
+struct TreeSnapshot;
+}
+
 namespace corridor::cli {
 
 // Options of every command.
@@ -40,6 +44,11 @@ void print_error(const std::string& text);
 // of reports.
 using ReportWriter = std::function<Result<void>(const std::vector<std::filesystem::path>& run_dirs,
                                                 const std::filesystem::path& out)>;
+
+// A picture (SVG) of a Bayes tree before and after an update. Handed in by main() as well.
+using TreeDrawer =
+    std::function<std::string(const std::string& title, const backend::TreeSnapshot& before,
+                              const backend::TreeSnapshot& after)>;
 
 // The exit code of a command that ran.
 using ExitCode = int;

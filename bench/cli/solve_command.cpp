@@ -19,6 +19,7 @@
 #include "bench/cli/solve_answer.hpp"
 #include "bench/cli/solve_closures.hpp"
 #include "bench/cli/solve_request.hpp"
+#include "bench/cli/solve_tree.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/exit_code.hpp"
 #include "bench/solve/false_closures.hpp"
@@ -37,6 +38,9 @@ Result<formats::PoseGraph> load(const SolveCommand& command) {
   if (!known) return tl::make_unexpected(known.error());
   auto loaded = catalog::load_graph(command.graph, command.common.data_dirs(), *known);
   if (!loaded) return tl::make_unexpected(loaded.error());
+  if (const Result<void> good = check_tree_size(command, loaded->graph); !good) {
+    return tl::make_unexpected(good.error());
+  }
   return std::move(loaded->graph);
 }
 
@@ -73,6 +77,16 @@ std::string not_a_width(const std::string& text) {
 bool has_answer(const solve::SolveRun& run) {
   return run.status != backend::SolveStatus::kRankDeficient &&
          run.status != backend::SolveStatus::kNotFinite;
+}
+
+Result<void> write_files(const SolveCommand& command, const formats::PoseGraph& graph,
+                         const solve::SolveRun& run, const graph::Values& solution,
+                         std::size_t num_planted) {
+  if (!command.out.empty()) {
+    if (const auto written = write_solution(command, graph, solution); !written) return written;
+  }
+  if (command.rejected.empty()) return {};
+  return write_rejected(command.rejected, graph, run, solution, num_planted);
 }
 
 }  // namespace
@@ -133,11 +147,17 @@ void SolveCommand::add_to(CLI::App& command) {
   command.add_flag("--converge", do_converge,
                    "After the last pose of incremental, go on until the gradient is small");
   command.add_option("--out", out, "The graph with its poses solved")->type_name("S.g2o");
+  command
+      .add_option("--tree", tree,
+                  fmt::format("Picture of isam2's Bayes tree before and after the last update of "
+                              "incremental; up to {} poses",
+                              kMaxPosesOfTree))
+      ->type_name("T.svg");
   command.add_flag("--json", is_json, "One JSON document");
   common.add_to(command);
 }
 
-Result<ExitCode> SolveCommand::run() const {
+Result<ExitCode> SolveCommand::run(const TreeDrawer& draw_tree) const {
   if (const Result<void> good = check_request(*this); !good) {
     return tl::make_unexpected(good.error());
   }
@@ -157,15 +177,14 @@ Result<ExitCode> SolveCommand::run() const {
     if (!planted) return tl::make_unexpected(of_graph(*this, planted.error()));
     options.num_planted = *planted;
   }
+  LastUpdate last_update;
+  if (!tree.empty()) last_update.watch(*problem, options);
   const Result<solve::SolveRun> answer = solve::solve_graph(*problem, **solver, options);
   if (!answer) return tl::make_unexpected(of_graph(*this, answer.error()));
-  if (!out.empty() && has_answer(*answer)) {
-    const Result<void> written = write_solution(*this, *problem, (*solver)->estimate());
-    if (!written) return tl::make_unexpected(written.error());
-  }
-  if (!rejected.empty() && has_answer(*answer)) {
-    const Result<void> written =
-        write_rejected(rejected, *problem, *answer, (*solver)->estimate(), options.num_planted);
+  if (has_answer(*answer)) {
+    Result<void> written =
+        write_files(*this, *problem, *answer, (*solver)->estimate(), options.num_planted);
+    if (written && !tree.empty()) written = last_update.write(*this, *problem, draw_tree);
     if (!written) return tl::make_unexpected(written.error());
   }
   const nlohmann::ordered_json json = to_json(*this, *set, *problem, options, *answer);

@@ -29,10 +29,11 @@ struct SolveCommand {
   std::optional<std::string> seed;
   std::string rejected;
   std::string out;
+  std::string tree;
   bool is_json = false;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] Result<ExitCode> run() const;
+  [[nodiscard]] Result<ExitCode> run(const TreeDrawer& draw_tree) const;
 };
 
 }  // namespace corridor::cli

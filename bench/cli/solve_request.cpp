@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "bench/cli/solve_tree.hpp"
 #include "bench/cli/staged_files.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/overrides.hpp"
@@ -85,6 +86,7 @@ Result<void> check_request(const SolveCommand& command) {
                         "--mode incremental with it");
   }
   if (const Result<void> good = check_robust(command); !good) return good;
+  if (const Result<void> good = check_tree(command); !good) return good;
   if (command.out.empty()) return {};
   if (!formats::graph_format_from_suffix(command.out)) {
     return fail(ErrorCode::kUnsupported, "unknown kind of graph", command.out,

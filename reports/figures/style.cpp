@@ -63,6 +63,11 @@ constexpr std::string_view kLightCss =
     ".figure .hint{stroke:#8a8a84;stroke-width:1.5;stroke-dasharray:1 "
     "5;stroke-linecap:round;fill:none}"
     ".figure .halo{stroke:#ffffff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}"
+    ".figure .clique{fill:#ffffff;stroke:#1a1a1a;stroke-width:1.2}"
+    ".figure .clique-out{stroke:#D55E00;stroke-width:2;stroke-dasharray:6 3}"
+    ".figure .clique-new{stroke:#0072B2;stroke-width:3.2}"
+    ".figure .clique-again{fill:none;stroke:#008560;stroke-width:1.4}"
+    ".figure .clique-kept{fill:#e4e4df}.figure .orphan{stroke-dasharray:2 3}"
     ".figure .path{fill:none;stroke-width:2;stroke-linejoin:round}"
     ".figure .line-truth{stroke-width:7;stroke-opacity:0.35}"
     ".figure .dot{fill-opacity:0.75}.figure image{image-rendering:pixelated}\n";
@@ -72,6 +77,9 @@ constexpr std::string_view kDarkCss =
     ".figure .panel{fill:#1f2227;stroke:#454a52}.figure .axis{stroke:#b4b4b4}"
     ".figure .grid{stroke:#343840}.figure .wall{stroke:#7c828c}.figure .wall-over{stroke:#ff6b7d}"
     ".figure .dimension{stroke:#5aaee6}.figure .dimension-head{fill:#5aaee6}"
+    ".figure .clique{fill:#15171b;stroke:#ececec}.figure .clique-out{stroke:#ff8a3d}"
+    ".figure .clique-new{stroke:#5aaee6}.figure .clique-again{fill:none;stroke:#2ccf9f}"
+    ".figure .clique-kept{fill:#343840}"
     ".figure .interval{stroke:#ececec}.figure .halo{stroke:#15171b}";
 
 template <class Visit>

@@ -47,9 +47,12 @@ void Svg::line(double x1, double y1, double x2, double y2, std::string_view clas
                        px(y1), px(x2), px(y2), classes);
 }
 
-void Svg::rect(double x, double y, double width, double height, std::string_view classes) {
-  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" class=\"{}\"/>\n", px(x),
-                       px(y), px(width), px(height), classes);
+void Svg::rect(double x, double y, double width, double height, std::string_view classes,
+               double corner_radius) {
+  const std::string corners =
+      corner_radius > 0 ? fmt::format(" rx=\"{}\"", px(corner_radius)) : std::string();
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{} class=\"{}\"/>\n",
+                       px(x), px(y), px(width), px(height), corners, classes);
 }
 
 void Svg::polyline(const std::vector<Eigen::Vector2d>& points, std::string_view classes) {

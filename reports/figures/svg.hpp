@@ -21,7 +21,8 @@ class Svg {
       std::string description);
 
   void line(double x1, double y1, double x2, double y2, std::string_view classes);
-  void rect(double x, double y, double width, double height, std::string_view classes);
+  void rect(double x, double y, double width, double height, std::string_view classes,
+            double corner_radius = 0);
   void polyline(const std::vector<Eigen::Vector2d>& points, std::string_view classes);
   void marker(Marker shape, double x, double y, double radius, std::string_view classes);
   // `d` is a path in SVG's own syntax, made by the caller from numbers only.

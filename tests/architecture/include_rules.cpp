@@ -42,6 +42,9 @@ const std::vector<Arrow>& arrows() {
       {"bench/cli/", {"bench/", "slam/", "baselines/", "datasets/", "reports/"}},
       {"bench/main.cpp", {"bench/", "slam/", "baselines/", "datasets/", "reports/"}},
       {"reports/", {"bench/results/", "bench/statistics/", "datasets/", "slam/core/"}},
+      // The picture of a Bayes tree is made from its snapshot, which is plain values.
+      {"reports/figures/tree_figure",
+       {"reports/", "slam/backend/isam2/tree_snapshot", "slam/graph/key"}},
       {"tests/", {"slam/", "baselines/", "datasets/", "bench/", "reports/"}},
   };
   return table;

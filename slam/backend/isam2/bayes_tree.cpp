@@ -212,6 +212,7 @@ int BayesTree::make_clique(const linear::Supernode& node) {
     num_below += dimension(clique.variables.back());
   }
   clique.is_solved = clique.are_children_due = false;
+  clique.birth = ++num_births_;
   clique.memory = memory_.take(Front::memory_size(num_pivots, num_below));
   clique.front = Front(clique.memory, num_pivots, num_below);
   return number;
@@ -254,6 +255,7 @@ bool BayesTree::close() {
   if (num_good == clique.front.num_pivots()) {
     num_unsettled_ -= clique.is_unsettled ? 1 : 0;
     clique.is_unsettled = clique.is_solved = false;
+    clique.elimination = ++num_eliminations_;
     return true;
   }
   int row = 0;

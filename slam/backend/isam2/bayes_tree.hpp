@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,8 @@ class BayesTree {
     bool is_unsettled = false;      // its numbers are of no use any more
     bool is_solved = false;         // since it was eliminated
     bool are_children_due = false;  // solved without its children
+    // Numbers never given twice: of its making, and of its last elimination.
+    std::int64_t birth = 0, elimination = 0;
     double* memory = nullptr;
     Front front;
 
@@ -161,6 +164,7 @@ class BayesTree {
   std::vector<RowRun> runs_;
   std::vector<double> below_, z_;
   int open_ = kNone, first_bad_variable_ = kNone, pass_ = 0, num_unsettled_ = 0;
+  std::int64_t num_births_ = 0, num_eliminations_ = 0;
 };
 
 }  // namespace corridor::backend

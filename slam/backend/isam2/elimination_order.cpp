@@ -8,6 +8,16 @@
 namespace corridor::backend {
 
 using linear::to_index;
+
+std::span<const int> last_born(std::span<int> variables, std::span<const std::int64_t> birth_of,
+                               int count) {
+  const std::size_t num_last = std::min(variables.size(), to_index(count));
+  const std::span<int> last = variables.last(num_last);
+  std::nth_element(variables.begin(), last.begin(), variables.end(),
+                   [&](int a, int b) { return birth_of[to_index(a)] < birth_of[to_index(b)]; });
+  return last;
+}
+
 void EliminationOrder::plan(std::span<const int> variables, const VariableSets& sets,
                             std::span<const int> last, std::span<const int> dimensions) {
   variables_ = variables;

@@ -1,6 +1,7 @@
 // Orders the part of a Bayes tree that an update eliminates anew and cuts it into cliques.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "slam/linear/supernodes.hpp"
 
 namespace corridor::backend {
+
+// The `count` of `variables` that came last, in no order, or all; they are moved to its end.
+std::span<const int> last_born(std::span<int> variables, std::span<const std::int64_t> birth_of,
+                               int count);
 
 class EliminationOrder {
  public:

@@ -12,6 +12,7 @@
 #include "slam/backend/isam2/bayes_tree.hpp"
 #include "slam/backend/isam2/linear_terms.hpp"
 #include "slam/backend/isam2/marginalization.hpp"
+#include "slam/backend/isam2/tree_snapshot.hpp"
 #include "slam/core/expect.hpp"
 #include "slam/graph/slot_range.hpp"
 #include "slam/graph/variable_index.hpp"
@@ -149,6 +150,7 @@ class Isam2 final : public BackEnd {
   }
 
   const graph::FactorGraph& graph() const override { return graph_; }
+  TreeSnapshot tree() const { return snapshot_of(tree_, index_.keys()); }
 
   Result<Eigen::MatrixXd> marginal_covariance(Key key) override {
     if (!index_.contains(key)) {
@@ -281,17 +283,6 @@ class Isam2 final : public BackEnd {
     for (const FactorId id : collected_) sets_.add(variables_of_[id]);
   }
 
-  // Of the variables that are eliminated, those that came last.
-  std::span<const int> newest() {
-    const std::span<const int> detached = tree_.detached();
-    newest_.assign(detached.begin(), detached.end());
-    const std::size_t num_last = std::min(newest_.size(), to_index(params_.num_last));
-    std::nth_element(newest_.begin(), newest_.end() - static_cast<std::ptrdiff_t>(num_last),
-                     newest_.end(),
-                     [&](int a, int b) { return birth_of_[to_index(a)] < birth_of_[to_index(b)]; });
-    return std::span(newest_).last(num_last);
-  }
-
   // False: rank deficient, and the report says where, or not finite.
   bool eliminate(BackEndReport& report) {
     is_frozen_ = is_frozen_ || tree_.has_unsettled();
@@ -301,7 +292,8 @@ class Isam2 final : public BackEnd {
       if (!tree_.detached().empty()) {
         is_frozen_ = true;
         collect_factors();
-        tree_.attach(sets_, collected_, newest());
+        newest_.assign(tree_.detached().begin(), tree_.detached().end());
+        tree_.attach(sets_, collected_, last_born(newest_, birth_of_, params_.num_last));
         is_good = eliminate_each(tree_.new_cliques(), report);
       }
     }
@@ -395,6 +387,11 @@ class Isam2 final : public BackEnd {
 
 std::unique_ptr<BackEnd> make_isam2(const Isam2Params& params) {
   return std::make_unique<Isam2>(params);
+}
+
+std::optional<TreeSnapshot> tree_of(const BackEnd& back_end) {
+  const auto* const isam2 = dynamic_cast<const Isam2*>(&back_end);
+  return isam2 == nullptr ? std::nullopt : std::optional(isam2->tree());
 }
 
 }  // namespace corridor::backend
