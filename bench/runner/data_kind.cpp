@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "bench/runner/graph_of.hpp"
 #include "datasets/catalog/load_graph.hpp"
 #include "datasets/simulation/scenario.hpp"
 #include "slam/core/nearest_names.hpp"
@@ -31,10 +32,13 @@ std::vector<std::string> all_names(const catalog::Catalog& known) {
 }  // namespace
 
 Result<void> check_one_meaning(const std::string& name_or_path, const catalog::Catalog& known) {
-  const std::string name = simulation::without_member(name_or_path);
+  const std::string name =
+      is_graph_of(name_or_path) ? name_or_path : simulation::without_member(name_or_path);
   const catalog::CatalogEntry* entry = known.find(name);
-  if (entry == nullptr || !is_scenario_name(name)) return {};
-  return fail(ErrorCode::kInvalid, fmt::format("'{}' is a scenario and a data set", name),
+  if (entry == nullptr || (!is_scenario_name(name) && !is_graph_of(name))) return {};
+  return fail(ErrorCode::kInvalid,
+              fmt::format("'{}' is a {} and a data set", name,
+                          is_graph_of(name) ? "graph of a system" : "scenario"),
               fmt::format("{}:{}", entry->catalog_file.string(), entry->line),
               "names that mean one thing: rename either");
 }
@@ -42,6 +46,11 @@ Result<void> check_one_meaning(const std::string& name_or_path, const catalog::C
 Result<DataKind> kind_of_data(const std::string& name_or_path, const catalog::Catalog& known) {
   if (const Result<void> clear = check_one_meaning(name_or_path, known); !clear) {
     return tl::make_unexpected(clear.error());
+  }
+  if (is_graph_of(name_or_path)) {
+    const Result<GraphOf> graph = graph_of_from(name_or_path, known);
+    if (!graph) return tl::make_unexpected(graph.error());
+    return DataKind::kGraph;
   }
   const std::string name = simulation::without_member(name_or_path);
   if (fs::path(name).extension() == ".toml" || is_scenario_name(name)) return DataKind::kSimulated;

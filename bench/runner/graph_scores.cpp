@@ -38,11 +38,10 @@ Trajectory trajectory_of(const Poses& poses) {
   return trajectory;
 }
 
-std::optional<std::string> why_lost(const RunResult& result) {
+std::optional<std::string> why_lost(const GraphSize& size, const RunResult& result) {
   if (!result.chi2 || !std::isfinite(*result.chi2)) return "chi2 is not finite";
   const double excess = *result.chi2 - *result.chi2_best;
-  const double dof =
-      3.0 * static_cast<double>(std::max<std::int64_t>(*result.factors - *result.variables + 1, 1));
+  const auto dof = static_cast<double>(size.num_degrees_of_freedom);
   if (*result.chi2 <= kLostChi2Ratio * *result.chi2_best || excess <= kMinLostChi2PerDof * dof) {
     return std::nullopt;
   }
@@ -52,9 +51,41 @@ std::optional<std::string> why_lost(const RunResult& result) {
 
 }  // namespace
 
-void score_poses(const Poses& truth, const Poses& final, const Poses& online, RunResult& result) {
+GraphSize size_of(const formats::PoseGraph& graph) {
+  GraphSize size;
+  size.num_factors = static_cast<std::int64_t>(graph.edges.size());
+  size.num_variables = size.num_poses = static_cast<std::int64_t>(graph.vertices.size());
+  constexpr int kScalars = 3;  // of a pose, and of an edge
+  size.num_degrees_of_freedom =
+      kScalars * std::max<std::int64_t>(size.num_factors - size.num_variables + 1, 1);
+  return size;
+}
+
+GraphSize size_of(const solve::Recording& recording) {
+  const graph::FactorGraph factors = recording.factors();
+  GraphSize size;
+  std::int64_t num_measured = 0, num_solved_for = 0;
+  factors.for_each([&]<class F>(graph::FactorId, const F& factor, const graph::RobustKernel&) {
+    if constexpr (graph::kIsFixed<F>) {
+      num_measured += F::kRows;
+    } else {
+      num_measured += factor.num_rows();
+    }
+  });
+  for (const graph::Key key : recording.initial_values().keys()) {
+    num_solved_for += key.dimension();
+    ++size.num_variables;
+    if (key.kind == graph::VariableKind::kPose) ++size.num_poses;
+  }
+  size.num_factors = static_cast<std::int64_t>(factors.num_factors());
+  size.num_degrees_of_freedom = std::max<std::int64_t>(num_measured - num_solved_for, 1);
+  return size;
+}
+
+void score_poses(const GraphSize& size, const Poses& truth, const Poses& final, const Poses& online,
+                 RunResult& result) {
   if (truth.empty()) {
-    result.poses_expected = result.variables;
+    result.poses_expected = size.num_poses;
     result.poses_matched = static_cast<std::int64_t>(final.size());
     return;
   }
@@ -69,10 +100,9 @@ void score_poses(const Poses& truth, const Poses& final, const Poses& online, Ru
   result.notes = metrics::score_case(evidence, {}, result);
 }
 
-void score_solution(const formats::PoseGraph& graph, const solve::SolveRun& run,
-                    RunResult& result) {
-  result.factors = static_cast<std::int64_t>(graph.edges.size());
-  result.variables = static_cast<std::int64_t>(graph.vertices.size());
+void score_solution(const GraphSize& size, const solve::SolveRun& run, RunResult& result) {
+  result.factors = size.num_factors;
+  result.variables = size.num_variables;
   result.relinearised = run.num_relinearized;
   // Solvers that factorise everything anew count no variables.
   if (run.num_eliminated > 0) result.eliminated = run.num_eliminated;
@@ -128,7 +158,8 @@ void score_trace(const std::vector<solve::Checkpoint>& checkpoints, RunResult& r
   result.run_gap_max_ratio = statistics::percentile(gaps, 100);
 }
 
-void settle_status(solve::Mode mode, const solve::SolveRun& run, RunResult& result) {
+void settle_status(const GraphSize& size, solve::Mode mode, const solve::SolveRun& run,
+                   RunResult& result) {
   result.status = CaseStatus::kOk;
   // An update of an incremental solution promises no convergence.
   const bool has_stopped_early =
@@ -139,7 +170,7 @@ void settle_status(solve::Mode mode, const solve::SolveRun& run, RunResult& resu
   } else if (run.status == SolveStatus::kNotFinite || has_stopped_early) {
     result.status = CaseStatus::kDiverged;
     result.status_message = run.status_message;
-  } else if (const std::optional<std::string> reason = why_lost(result)) {
+  } else if (const std::optional<std::string> reason = why_lost(size, result)) {
     result.status = CaseStatus::kDiverged;
     result.status_message = *reason;
   }

@@ -39,6 +39,12 @@ std::vector<std::string> GraphBatchParams::relations() const {
   return broken;
 }
 
+std::vector<std::string> GraphIncrementalParams::relations() const {
+  if (!use_calls || poses_per_update == 1) return {};
+  return {
+      fmt::format("poses_per_update = {}: expected 1 where use_calls is true", poses_per_update)};
+}
+
 GraphTask task_of(const GraphBatchParams& params) {
   GraphTask task;
   task.starts_at_optimum = params.start == kOptimum;
@@ -62,7 +68,26 @@ GraphTask task_of(const GraphIncrementalParams& params) {
   task.options.mode = solve::Mode::kIncremental;
   task.options.poses_per_update = params.poses_per_update;
   task.num_checkpoints = params.num_checkpoints;
+  task.use_calls = params.use_calls;
   return task;
+}
+
+std::optional<std::string> why_unfit(const GraphTask& task, bool is_of_system) {
+  const bool is_batch = task.options.mode == solve::Mode::kBatch;
+  if (!is_of_system) {
+    return task.use_calls ? std::optional("replays a system's calls, and this is a pose graph")
+                          : std::nullopt;
+  }
+  if (!is_batch && !task.use_calls) return "goes pose by pose, and this graph has calls";
+  if (task.starts_at_optimum || task.has_start_noise() ||
+      task.options.init != solve::Initialization::kFile) {
+    return "starts elsewhere, and this graph has the values that its system gave";
+  }
+  if (task.false_closures > 0 || task.options.rejection != solve::Rejection::kNone ||
+      task.options.kernel.kind != graph::KernelKind::kNone) {
+    return "treats closures as such, and this graph has none that are told apart";
+  }
+  return std::nullopt;
 }
 
 }  // namespace corridor::runner

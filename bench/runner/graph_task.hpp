@@ -2,6 +2,7 @@
 // given a log. Its name and parameters stand in the table of systems (systems.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ struct GraphIncrementalParams {
   int poses_per_update = 1;
   // The run is done again for them, so that they take no time of it; 0: not at all.
   int num_checkpoints = 50;
+  bool use_calls = false;
+
+  std::vector<std::string> relations() const;
 
   template <class V>
   static void visit(GraphIncrementalParams& p, V&& v) {
@@ -76,6 +80,9 @@ struct GraphIncrementalParams {
                 "updates after which the gap to the batch optimum is measured, in a replay", 0,
                 100'000},
       p.num_checkpoints);
+    v(ParamInfo{"use_calls", "",
+                "steps are the calls that the system made whose graph it is, not its poses"},
+      p.use_calls);
   }
 };
 
@@ -87,6 +94,7 @@ struct GraphTask {
   double start_position_sigma_m = 0;
   double start_heading_sigma_rad = 0;
   int num_checkpoints = 0;
+  bool use_calls = false;
   double false_closures = 0;
   solve::FalsePairs false_pairs = solve::FalsePairs::kRandom;
 
@@ -97,5 +105,9 @@ struct GraphTask {
 
 GraphTask task_of(const GraphBatchParams& params);
 GraphTask task_of(const GraphIncrementalParams& params);
+
+// What the task asks for that such a graph does not have: a pose graph no calls, the graph of a
+// system neither poses that come one by one nor closures and starts like those of pose graphs.
+std::optional<std::string> why_unfit(const GraphTask& task, bool is_of_system);
 
 }  // namespace corridor::runner

@@ -8,6 +8,7 @@
 #include "bench/results/digest.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/data_kind.hpp"
+#include "bench/runner/graph_of.hpp"
 #include "bench/runner/name_data.hpp"
 #include "bench/runner/systems.hpp"
 #include "datasets/catalog/load_graph.hpp"
@@ -59,6 +60,26 @@ Result<DataItem> graph_item(const std::string& source, const catalog::DataDirs& 
                   {}};
 }
 
+// What a system makes of a scenario or log: those decide what it is, as does the system, which runs
+// when the case does. An Error kNotFound: also a log without the sensors that the system needs.
+Result<DataItem> graph_of_item(const std::string& source, const catalog::DataDirs& dirs,
+                               const catalog::Catalog& known) {
+  Result<GraphOf> graph = graph_of_from(source, known);
+  if (!graph) return tl::make_unexpected(graph.error());
+  const Result<DataItem> data = graph->data_kind == DataKind::kSimulated
+                                    ? scenario_item(graph->data)
+                                    : dataset_item(graph->data, dirs);
+  if (!data) return data;
+  const std::string& system = graph->system.system;
+  if (const auto missing = missing_sensor(*find_system(system), data->sensors)) {
+    return fail(ErrorCode::kNotFound, fmt::format("{} needs {}", system, *missing), source,
+                "a log with readings of each sensor that it needs");
+  }
+  graph->data = data->source;
+  const std::string name = to_text(*graph);
+  return DataItem{DataKind::kGraph, name, name, data->digest, {}};
+}
+
 class Planner {
  public:
   Planner(const Suite& suite, const PlanOptions& options) : suite_(suite), options_(options) {}
@@ -79,19 +100,8 @@ class Planner {
       }
     }
     for (const std::string& source : suite_.datasets) {
-      const bool is_graph = catalog::is_graph_name(source, *known);
-      const Result<DataItem> item =
-          is_graph ? graph_item(source, dirs, *known) : dataset_item(source, dirs);
-      if (item) {
-        items_.push_back(*item);
-      } else if (options_.must_load_data) {
-        return tl::make_unexpected(item.error());
-      } else if (item.error().code == ErrorCode::kNotFound) {
-        plan_.skipped.push_back(fmt::format("{}: skipped: {}", source, item.error().to_line()));
-      } else {
-        // Broken data are a row of every system, not a gap.
-        items_.push_back(
-            {is_graph ? DataKind::kGraph : DataKind::kRecorded, source, source, "", {}});
+      if (const auto added = add_dataset(source, dirs, *known); !added) {
+        return tl::make_unexpected(added.error());
       }
     }
     for (const DataItem& item : with_own_names(std::move(items_))) {
@@ -105,7 +115,29 @@ class Planner {
     for (const auto* sources : {&suite_.scenarios, &suite_.datasets}) {
       for (const std::string& source : *sources) {
         if (const Result<void> clear = check_one_meaning(source, known); !clear) return clear;
+        if (!is_graph_of(source)) continue;
+        const Result<GraphOf> graph = graph_of_from(source, known);
+        if (!graph) return tl::make_unexpected(graph.error());
       }
+    }
+    return {};
+  }
+
+  Result<void> add_dataset(const std::string& source, const catalog::DataDirs& dirs,
+                           const catalog::Catalog& known) {
+    const bool is_graph = is_graph_of(source) || catalog::is_graph_name(source, known);
+    const Result<DataItem> item = is_graph_of(source) ? graph_of_item(source, dirs, known)
+                                  : is_graph          ? graph_item(source, dirs, known)
+                                                      : dataset_item(source, dirs);
+    if (item) {
+      items_.push_back(*item);
+    } else if (options_.must_load_data) {
+      return tl::make_unexpected(item.error());
+    } else if (item.error().code == ErrorCode::kNotFound) {
+      plan_.skipped.push_back(fmt::format("{}: skipped: {}", source, item.error().to_line()));
+    } else {
+      // Broken data are a row of every system, not a gap.
+      items_.push_back({is_graph ? DataKind::kGraph : DataKind::kRecorded, source, source, "", {}});
     }
     return {};
   }
@@ -133,6 +165,11 @@ class Planner {
     const Result<SystemInfo> info = find_system(choice.system);
     if (const auto reason = why_not(*info, item)) {
       skip(fmt::format("{} on {}: skipped: {}", choice.system, item.name, *reason));
+      return;
+    }
+    if (const auto reason = why_unfit_here(*info, choice, item)) {
+      skip(fmt::format("{}@{} on {}: skipped: {}", choice.system, choice.profile, item.name,
+                       *reason));
       return;
     }
     CaseSpec spec;
@@ -168,6 +205,16 @@ class Planner {
     const auto missing = missing_sensor(info, item.sensors);
     if (!missing) return std::nullopt;
     return fmt::format("needs {}, and the log has none", *missing);
+  }
+
+  // Of systems that take graphs. Parameters that are wrong are the case's to refuse.
+  [[nodiscard]] std::optional<std::string> why_unfit_here(const SystemInfo& info,
+                                                          const SystemChoice& choice,
+                                                          const DataItem& item) const {
+    if (!info.takes_graphs()) return std::nullopt;
+    const Result<GraphTask> task =
+        info.graph_task(choice.profile, overrides_of_case(suite_, choice.system, std::nullopt));
+    return task ? why_unfit(*task, is_graph_of(item.source)) : std::nullopt;
   }
 
   // Once, though every seed and profile meets it again.

@@ -14,6 +14,7 @@
 #include "bench/runner/build_id.hpp"
 #include "bench/runner/case_data.hpp"
 #include "bench/runner/case_files.hpp"
+#include "bench/runner/case_system.hpp"
 #include "bench/runner/cost.hpp"
 #include "bench/runner/detection.hpp"
 #include "bench/runner/drive.hpp"
@@ -28,22 +29,6 @@ namespace {
 
 using results::CaseStatus;
 using results::RunResult;
-
-Result<std::unique_ptr<SlamSystem>> make_system(const CaseSpec& spec, const CaseData& data) {
-  const Result<SystemInfo> info = find_system(spec.system);
-  if (!info) return tl::make_unexpected(info.error());
-  if (info->takes_graphs()) {
-    return fail(ErrorCode::kInvalid, fmt::format("system {} needs a pose graph", spec.system),
-                spec.dataset, "data_kind graph");
-  }
-  if (const auto missing = missing_sensor(*info, sensors_of(data.log))) {
-    return fail(ErrorCode::kInvalid, fmt::format("system {} needs {}", spec.system, *missing),
-                spec.dataset, "a log with readings of each sensor that it needs");
-  }
-  CaseOverrides overrides = split_overrides(spec.overrides, spec.backend);
-  return info->make({spec.profile, std::move(overrides.system), spec.backend, data.log.robot,
-                     spec.system_seed, spec.threads, std::move(overrides.back_end)});
-}
 
 // How the base moved during a sweep, as the trajectory has it; none where it does not reach.
 Eigen::Vector3d sweep_twist(const LaserScan& scan, const Pose2& T_map_base,

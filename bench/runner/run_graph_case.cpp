@@ -12,14 +12,17 @@
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/case_files.hpp"
 #include "bench/runner/graph_case_files.hpp"
+#include "bench/runner/graph_of.hpp"
 #include "bench/runner/graph_scores.hpp"
 #include "bench/runner/overrides.hpp"
+#include "bench/runner/record_graph.hpp"
 #include "bench/runner/systems.hpp"
 #include "bench/solve/gap_trace.hpp"
 #include "bench/solve/held_poses.hpp"
 #include "bench/solve/optimum.hpp"
 #include "bench/solve/robust_method.hpp"
 #include "datasets/catalog/load_graph.hpp"
+#include "datasets/formats/graphs/g2o_file.hpp"
 #include "slam/core/rng.hpp"
 
 namespace corridor::runner {
@@ -30,15 +33,34 @@ using Failure = tl::unexpected<CaseFailure>;
 
 struct GraphCase {
   catalog::LoadedGraph data;
+  std::optional<solve::Recording> recording;  // what `data` is the pose graph of
   GraphTask task;
   std::optional<double> best_chi2;
   std::string best_chi2_source;
 };
 
-Result<catalog::LoadedGraph> load_data(const CaseSpec& spec, const catalog::DataDirs& dirs) {
+// Data and task.
+Result<GraphCase> load(const CaseSpec& spec, const catalog::DataDirs& dirs, GraphTask task) {
   const Result<catalog::Catalog> known = catalog::known_datasets(dirs);
   if (!known) return tl::make_unexpected(known.error());
-  return catalog::load_graph(spec.data_source, dirs, *known);
+  const bool is_of_system = is_graph_of(spec.data_source);
+  if (const auto reason = why_unfit(task, is_of_system)) {
+    return fail(ErrorCode::kInvalid, fmt::format("{}@{} {}", spec.system, spec.profile, *reason),
+                spec.dataset);
+  }
+  if (!is_of_system) {
+    auto data = catalog::load_graph(spec.data_source, dirs, *known);
+    if (!data) return tl::make_unexpected(data.error());
+    return GraphCase{std::move(*data), {}, std::move(task), {}, "catalogue"};
+  }
+  const Result<GraphOf> graph = graph_of_from(spec.data_source, *known);
+  if (!graph) return tl::make_unexpected(graph.error());
+  auto recording = record_graph(*graph, dirs);
+  if (!recording) return tl::make_unexpected(recording.error());
+  catalog::LoadedGraph data;
+  data.name = spec.dataset;
+  data.graph = formats::pose_graph_of(recording->factors(), recording->initial_values());
+  return GraphCase{std::move(data), std::move(*recording), std::move(task), {}, ""};
 }
 
 Result<GraphTask> task_of(const CaseSpec& spec) {
@@ -89,16 +111,21 @@ Result<void> plant_false_closures(std::uint64_t seed, GraphCase& graph_case) {
   return {};
 }
 
+Result<solve::Optimum> optimum_of(const GraphCase& graph_case) {
+  if (graph_case.recording) return solve::optimum_of(*graph_case.recording);
+  return solve::optimum_of(graph_case.data.graph);
+}
+
 // Everything that is done before the clock runs.
 Result<GraphCase> prepare(const CaseSpec& spec, const catalog::DataDirs& dirs) {
-  Result<catalog::LoadedGraph> data = load_data(spec, dirs);
-  if (!data) return tl::make_unexpected(data.error());
   Result<GraphTask> task = task_of(spec);
   if (!task) return tl::make_unexpected(task.error());
-  GraphCase made{std::move(*data), std::move(*task), {}, "catalogue"};
+  Result<GraphCase> loaded = load(spec, dirs, std::move(*task));
+  if (!loaded) return loaded;
+  GraphCase& made = *loaded;
   made.best_chi2 = made.data.best_chi2;
   if (made.task.starts_at_optimum || !made.best_chi2) {
-    const Result<solve::Optimum> optimum = solve::optimum_of(made.data.graph);
+    const Result<solve::Optimum> optimum = optimum_of(made);
     if (!optimum) return tl::make_unexpected(optimum.error());
     if (made.task.starts_at_optimum) put_at(optimum->values, made.data.graph);
     if (!made.best_chi2) {
@@ -115,7 +142,18 @@ Result<GraphCase> prepare(const CaseSpec& spec, const catalog::DataDirs& dirs) {
     return *make_solver(spec, solve::round_settings(settings));
   };
   if (made.task.has_start_noise()) add_noise(made.task, spec.system_seed, made.data.graph);
-  return made;
+  return loaded;
+}
+
+Result<solve::SolveRun> solve_with(backend::BackEnd& solver, const GraphCase& graph_case) {
+  const solve::SolveOptions& options = graph_case.task.options;
+  return graph_case.recording ? solve::solve_graph(*graph_case.recording, solver, options)
+                              : solve::solve_graph(graph_case.data.graph, solver, options);
+}
+
+GraphSize size_of(const GraphCase& graph_case) {
+  return graph_case.recording ? runner::size_of(*graph_case.recording)
+                              : runner::size_of(graph_case.data.graph);
 }
 
 Poses final_poses(const GraphCase& graph_case, const solve::SolveRun& run,
@@ -143,7 +181,8 @@ std::string log_text(const GraphCase& graph_case, const RunResult& result) {
     return value ? fmt::format("{:.9g}", *value) : std::string("-");
   };
   std::string text = fmt::format(
-      "case {}\nsystem {}@{} back-end {} seed {}\ngraph {}: {} poses, {} edges\nchi2 {}, at the "
+      "case {}\nsystem {}@{} back-end {} seed {}\ngraph {}: {} variables, {} factors\nchi2 {}, at "
+      "the "
       "start {}, best known {} ({})\n",
       result.case_id, result.system, result.profile, result.backend.value_or("-"),
       result.system_seed, result.dataset, *result.variables, *result.factors, number(result.chi2),
@@ -162,8 +201,11 @@ Result<std::vector<solve::Checkpoint>> traced(const CaseSpec& spec, const GraphC
   if (task.num_checkpoints == 0 || run.updates.empty()) return std::vector<solve::Checkpoint>();
   const auto solver = make_solver(spec, task.settings);
   if (!solver) return tl::make_unexpected(solver.error());
-  return solve::trace_gap(graph_case.data.graph, **solver, task.options, run.updates.size(),
-                          static_cast<std::size_t>(task.num_checkpoints));
+  const auto num_checkpoints = static_cast<std::size_t>(task.num_checkpoints);
+  return graph_case.recording ? solve::trace_gap(*graph_case.recording, **solver, task.options,
+                                                 run.updates.size(), num_checkpoints)
+                              : solve::trace_gap(graph_case.data.graph, **solver, task.options,
+                                                 run.updates.size(), num_checkpoints);
 }
 
 }  // namespace
@@ -178,7 +220,7 @@ tl::expected<RunResult, CaseFailure> run_graph_case(const CaseSpec& spec,
   if (!solver) return Failure(CaseFailure{solver.error()});
 
   const formats::PoseGraph& graph = graph_case->data.graph;
-  const Result<solve::SolveRun> run = solve::solve_graph(graph, **solver, graph_case->task.options);
+  const Result<solve::SolveRun> run = solve_with(**solver, *graph_case);
   if (!run) return Failure(CaseFailure{run.error()});
   const Result<std::vector<solve::Checkpoint>> checkpoints = traced(spec, *graph_case, *run);
   if (!checkpoints) return Failure(CaseFailure{checkpoints.error()});
@@ -188,12 +230,13 @@ tl::expected<RunResult, CaseFailure> run_graph_case(const CaseSpec& spec,
   const Poses online = online_poses(*run);
   result.chi2_best = graph_case->best_chi2;
   result.chi2_best_source = graph_case->best_chi2_source;
-  score_solution(graph, *run, result);
+  const GraphSize size = size_of(*graph_case);
+  score_solution(size, *run, result);
   score_rejection(graph, graph_case->task.options, *run, result);
-  score_poses(graph_case->data.true_poses, final, online, result);
+  score_poses(size, graph_case->data.true_poses, final, online, result);
   score_times(*run, result);
   score_trace(*checkpoints, result);
-  settle_status(graph_case->task.options.mode, *run, result);
+  settle_status(size, graph_case->task.options.mode, *run, result);
 
   const Result<void> written = write_folder_atomically(
       case_folder(out, result.case_id), [&](const std::filesystem::path& folder) -> Result<void> {

@@ -23,6 +23,16 @@ using SystemResult = Result<std::unique_ptr<SlamSystem>>;
 // no number.
 Rng rng_of(const SystemRequest& request) { return Rng(request.seed).stream("system"); }
 
+// The back-end that is asked for, else the system's own.
+Result<std::unique_ptr<backend::BackEnd>> back_end_for(
+    const SystemRequest& request, std::string_view own,
+    const backend::LeastSquaresParams& settings) {
+  auto back_end =
+      make_back_end(request.backend ? *request.backend : own, settings, request.backend_overrides);
+  if (back_end && request.wrap_back_end) return request.wrap_back_end(std::move(*back_end));
+  return back_end;
+}
+
 SystemInfo gmapping_entry() {
   SystemInfo info;
   info.name = "gmapping";
@@ -50,8 +60,7 @@ SystemInfo karto_entry() {
         "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
         karto::corrected_params()}},
       [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
-        auto back_end = make_back_end(request.backend.value_or("levenberg"), backend::spa_params(),
-                                      request.backend_overrides);
+        auto back_end = back_end_for(request, "levenberg", backend::spa_params());
         if (!back_end) return tl::make_unexpected(back_end.error());
         return karto::make_karto(params, request.robot, std::move(*back_end));
       });
@@ -101,8 +110,7 @@ SystemInfo mrpt_rbpf_entry() {
 }
 
 SystemResult make_fusion_system(const fusion::FusionParams& params, const SystemRequest& request) {
-  auto back_end =
-      make_back_end(request.backend.value_or("gauss-newton"), {}, request.backend_overrides);
+  auto back_end = back_end_for(request, "gauss-newton", {});
   if (!back_end) return tl::make_unexpected(back_end.error());
   return fusion::make_fusion(params, request.robot, std::move(*back_end));
 }
@@ -142,7 +150,7 @@ SystemInfo graph_batch_entry() {
              .start_heading_sigma_rad = heading_sigma_rad};
   };
   std::vector<Profile<P>> profiles = {
-      {"file", "from the file's poses", {}},
+      {"file", "from the file's poses, or as its system gave them", {}},
       {"odometry", "from chained edges", {.start = "odometry"}},
       {"chordal", "from chordal relaxation", {.start = "chordal"}},
       {"near-0.05", "from the optimum with noise of 0.05 rad and 0.5 m", near(0.05)},
@@ -172,9 +180,11 @@ SystemInfo graph_incremental_entry() {
   info.default_backend = "isam2";
   info.is_stochastic = true;
   using P = GraphIncrementalParams;
-  set_graph_task<P>(info,
-                    {{"each", "an update for every pose", {}},
-                     {"every-10", "an update for every tenth pose", {.poses_per_update = 10}}});
+  set_graph_task<P>(
+      info,
+      {{"each", "an update for every pose", {}},
+       {"every-10", "an update for every tenth pose", {.poses_per_update = 10}},
+       {"calls", "the graph of a system, call by call as it made them", {.use_calls = true}}});
   return info;
 }
 

@@ -25,6 +25,10 @@ struct ProfileInfo {
   std::string description;
 };
 
+// What becomes of a system's back-end before the system has it.
+using WrapBackEnd =
+    std::function<std::unique_ptr<backend::BackEnd>(std::unique_ptr<backend::BackEnd>)>;
+
 struct SystemRequest {
   std::string profile;
   ParamValues overrides;               // on top of the profile
@@ -33,6 +37,7 @@ struct SystemRequest {
   std::uint64_t seed = 1;
   int threads = 1;
   ParamValues backend_overrides = {};  // on top of what the back-end has
+  WrapBackEnd wrap_back_end = {};      // empty: nothing
 };
 
 struct SystemInfo {

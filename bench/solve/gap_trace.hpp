@@ -16,7 +16,7 @@ inline constexpr double kMinTracedChi2 = 1e-9;
 
 struct Checkpoint {
   std::size_t update_index = 0;
-  double chi2 = 0;          // of the edges so far
+  double chi2 = 0;          // of what there is so far, by the graph's Measure
   double chi2_optimum = 0;  // the smallest of optimum_near()
   // Of the newest pose, between the solution and the optimum.
   double newest_gap_m = 0;
@@ -29,5 +29,8 @@ struct Checkpoint {
 Result<std::vector<Checkpoint>> trace_gap(const formats::PoseGraph& graph,
                                           backend::BackEnd& back_end, const SolveOptions& options,
                                           std::size_t num_updates, std::size_t num_checkpoints);
+Result<std::vector<Checkpoint>> trace_gap(const Recording& recording, backend::BackEnd& back_end,
+                                          const SolveOptions& options, std::size_t num_updates,
+                                          std::size_t num_checkpoints);
 
 }  // namespace corridor::solve

@@ -16,7 +16,8 @@ namespace {
 constexpr double kMinRelativeDecrease = 1e-12;
 constexpr int kMaxIterations = 200;
 
-Optimum descend(const graph::FactorGraph& graph, const graph::Values& start, bool use_damping) {
+Optimum descend(const graph::FactorGraph& graph, const graph::Values& start, bool use_damping,
+                Measure measure) {
   backend::LeastSquaresParams params;
   params.use_damping = use_damping;
   params.max_iterations = kMaxIterations;
@@ -29,7 +30,7 @@ Optimum descend(const graph::FactorGraph& graph, const graph::Values& start, boo
   });
   solver->add(std::move(factors), start);
   solver->solve();
-  return {solver->estimate(), edges_chi2(graph, solver->estimate())};
+  return {solver->estimate(), chi2_of(graph, solver->estimate(), measure)};
 }
 
 // A chi2 that is not finite is below nothing.
@@ -39,7 +40,8 @@ void take_if_below(Optimum candidate, Optimum& best) {
 
 }  // namespace
 
-double edges_chi2(const graph::FactorGraph& graph, const graph::Values& values) {
+double chi2_of(const graph::FactorGraph& graph, const graph::Values& values, Measure measure) {
+  if (measure == Measure::kCost) return graph.cost(values);
   double sum = 0;
   for (graph::FactorId id = 0; id < graph.end_id(); ++id) {
     if (graph.contains(id) && graph.keys(id).size() > 1) sum += graph.chi2(id, values);
@@ -47,12 +49,17 @@ double edges_chi2(const graph::FactorGraph& graph, const graph::Values& values) 
   return sum;
 }
 
-Optimum optimum_near(const graph::FactorGraph& graph, const std::vector<graph::Values>& starts) {
-  Optimum best{starts.front(), edges_chi2(graph, starts.front())};
+Optimum optimum_near(const graph::FactorGraph& graph, const std::vector<graph::Values>& starts,
+                     Measure measure) {
+  Optimum best{starts.front(), chi2_of(graph, starts.front(), measure)};
   if (!std::isfinite(best.chi2)) best.chi2 = HUGE_VAL;
   const double chi2_at_start = best.chi2;
-  for (const graph::Values& start : starts) take_if_below(descend(graph, start, false), best);
-  if (best.chi2 >= chi2_at_start) take_if_below(descend(graph, starts.front(), true), best);
+  for (const graph::Values& start : starts) {
+    take_if_below(descend(graph, start, false, measure), best);
+  }
+  if (best.chi2 >= chi2_at_start) {
+    take_if_below(descend(graph, starts.front(), true, measure), best);
+  }
   return best;
 }
 
@@ -65,6 +72,10 @@ Result<Optimum> optimum_of(const formats::PoseGraph& graph) {
     problem.factors.add(std::move(prior));
   }
   return optimum_near(problem.factors, {std::move(*chordal), problem.values});
+}
+
+Optimum optimum_of(const Recording& recording) {
+  return optimum_near(recording.factors(), {recording.final_estimate}, Measure::kCost);
 }
 
 }  // namespace corridor::solve

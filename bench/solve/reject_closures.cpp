@@ -25,6 +25,7 @@ graph::FactorGraph Problem::kept() const {
 }
 
 double Problem::chi2(const graph::Values& values, std::size_t num_left_out) const {
+  if (measure == Measure::kCost) return cost(values);
   CORRIDOR_EXPECT(num_left_out <= kernels.size());
   double sum = 0;
   for (FactorId id = 0; id < kernels.size() - num_left_out; ++id) {

@@ -1,21 +1,23 @@
-// A pose graph on its way into a back-end, and the methods that find false loop closures in it.
+// A graph on its way into a back-end, and the methods that find false loop closures in it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "bench/solve/optimum.hpp"
 #include "bench/solve/solve_graph.hpp"
 #include "datasets/formats/graphs/pose_graph.hpp"
 
 namespace corridor::solve {
 
 struct Problem {
-  formats::GraphProblem graph;  // edges alone
+  formats::GraphProblem graph;  // of a file: edges alone; of a recording: every factor
   std::vector<std::uint32_t> held;
   std::vector<graph::NewFactor> priors;
   std::vector<graph::FactorId> closures;     // empty if nothing asks for them
   std::vector<graph::RobustKernel> kernels;  // by edge; of width 0: rejected
+  Measure measure = Measure::kEdges;
 
   [[nodiscard]] bool is_rejected(graph::FactorId id) const { return kernels[id].width == 0; }
   void reject(graph::FactorId id) { kernels[id] = {graph::KernelKind::kScaled, 0}; }
@@ -23,7 +25,7 @@ struct Problem {
   [[nodiscard]] graph::NewFactor edge(graph::FactorId id) const;
   // The edges that are not rejected, under their numbers.
   [[nodiscard]] graph::FactorGraph kept() const;
-  // Sum of e^T Omega e over all edges but the last `num_left_out`.
+  // By `measure`; of kEdges over all but the last `num_left_out`.
   [[nodiscard]] double chi2(const graph::Values& values, std::size_t num_left_out) const;
   [[nodiscard]] double cost(const graph::Values& values) const;
 };

@@ -1,5 +1,6 @@
-// Solves a pose graph of a file with any back-end, all at once or pose by pose, and measures what
-// that took. It reads and writes no files and knows no back-end by name.
+// Solves a pose graph of a file, or the graph that a system made, with any back-end, all at once or
+// step by step, and measures what that took. It reads and writes no files and knows no back-end by
+// name.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/solve/recording.hpp"
 #include "datasets/formats/graphs/pose_graph.hpp"
 #include "slam/backend/back_end.hpp"
 #include "slam/backend/robust/graduated_non_convexity.hpp"
@@ -42,9 +44,10 @@ inline constexpr std::array kRejections = {Rejection::kNone, Rejection::kGnc,
 // "none", "gnc", "gnc-geman-mcclure", "pcm".
 std::string_view to_text(Rejection rejection);
 
-// What the step of one pose did in kIncremental.
+// What one update did in kIncremental: the step of one pose, or the calls of a system up to one
+// that solves.
 struct Update {
-  std::uint32_t newest = 0;  // the pose, and where the estimate had it right after the step
+  std::uint32_t newest = 0;  // the pose, and where the estimate had it right after the update
   Pose2 T_map_newest;
   std::size_t num_poses = 0;  // so far
   std::int64_t num_relinearized = 0;
@@ -80,9 +83,8 @@ struct SolveRun {
   std::int64_t num_eliminated = 0;
   // Edges to poses that a back-end has forgotten; in chi2 all the same.
   std::int64_t num_dropped = 0;
-  // Sum of e^T Omega e over the edges, rejected ones too, kernels and priors left out; of kBatch
-  // also at the start.
-  // Nothing if kIncremental failed on the way.
+  // By the graph's Measure (optimum.hpp); that of the edges has rejected ones in it. Of kBatch also
+  // at the start. Nothing if kIncremental failed on the way.
   std::optional<double> chi2;
   std::optional<double> chi2_initial;
   // Of the edges under their kernels or weights: what was made small; rejected ones are not in it.
@@ -99,9 +101,10 @@ struct SolveRun {
   std::optional<int> converge_rounds;
   double cpu_s = 0;
   std::optional<double> peak_rss_mib;
-  // Of kIncremental, both: what the step of every pose took, with reading it, and what it did.
+  // Of kIncremental, both: what every update took, with reading the newest pose, and what it did.
   std::vector<double> updates_s;
   std::vector<Update> updates;
+  graph::Values marginalized;  // variables that a recording takes out, as they were then
 };
 
 // `back_end` is empty before and has the solution afterwards. The graph's fixed poses are held by
@@ -112,6 +115,13 @@ struct SolveRun {
 // An Error: poses that no edges join to a held one, or that edges of singular information leave
 // undetermined. A back-end that does not converge is no Error.
 Result<SolveRun> solve_graph(const formats::PoseGraph& graph, backend::BackEnd& back_end,
+                             const SolveOptions& options);
+
+// Batch: what there is at the end, from the values that the system gave. Incremental: the system's
+// calls as they came. Requires that `options` are as they are by default but for mode, do_converge
+// and after_update: the rest is of pose graphs. An Error: a recording that marginalises, to a
+// back-end that does not.
+Result<SolveRun> solve_graph(const Recording& recording, backend::BackEnd& back_end,
                              const SolveOptions& options);
 
 }  // namespace corridor::solve

@@ -23,22 +23,19 @@ std::vector<std::uint32_t> poses_of(const graph::Values& values) {
 }
 
 // What the vocabulary of g2o's SE2 types cannot hold, by name and number.
-std::string omission_lines(const std::map<std::string, std::size_t>& factors,
-                           std::size_t num_other_variables) {
-  std::string lines;
+void note_omissions(const std::map<std::string, std::size_t>& factors,
+                    std::size_t num_other_variables, std::vector<std::string>& notes) {
   for (const auto& [type, count] : factors) {
-    lines += fmt::format("# left out: {} factors of type {}\n", count, type);
+    notes.push_back(fmt::format("left out: {} factors of type {}", count, type));
   }
   if (num_other_variables > 0) {
-    lines += fmt::format("# left out: {} variables that are not poses\n", num_other_variables);
+    notes.push_back(fmt::format("left out: {} variables that are not poses", num_other_variables));
   }
-  return lines;
 }
 
 }  // namespace
 
-Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& values,
-                       const std::filesystem::path& path) {
+PoseGraph pose_graph_of(const graph::FactorGraph& graph, const graph::Values& values) {
   PoseGraph written;
   std::set<std::uint32_t> poses_with_prior;
   std::map<std::string, std::size_t> left_out;
@@ -61,10 +58,18 @@ Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& val
   if (written.fixed.empty() && !written.vertices.empty()) {
     written.fixed.push_back(written.vertices.front().id);
   }
-  std::string comments = omission_lines(left_out, values.size() - written.vertices.size());
+  note_omissions(left_out, values.size() - written.vertices.size(), written.notes);
   for (const std::uint32_t index : poses_with_prior) {
-    comments += fmt::format("# pose {} has a prior; here it is fixed\n", index);
+    written.notes.push_back(fmt::format("pose {} has a prior; here it is fixed", index));
   }
+  return written;
+}
+
+Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& values,
+                       const std::filesystem::path& path) {
+  const PoseGraph written = pose_graph_of(graph, values);
+  std::string comments;
+  for (const std::string& note : written.notes) comments += fmt::format("# {}\n", note);
   return write_file_atomically(path, comments + pose_graph_text(written, GraphFormat::kG2o));
 }
 

@@ -5,15 +5,20 @@
 
 #include <filesystem>
 
+#include "datasets/formats/graphs/pose_graph.hpp"
 #include "slam/core/result.hpp"
 #include "slam/graph/factor_graph.hpp"
 #include "slam/graph/values.hpp"
 
 namespace corridor::formats {
 
+// The poses and relative poses of a factor graph. A pose with a prior is fixed; without any, the
+// first pose is. The notes say so of each prior, and count what is left out.
+PoseGraph pose_graph_of(const graph::FactorGraph& graph, const graph::Values& values);
+
 // Vertices in ascending order, then edges in the order of their factor numbers; information upper
 // triangular in the order (x x, x y, x theta, y y, y theta, theta theta).
-// A pose with a prior is named in a comment and held by FIX; without any, the first pose is fixed.
+// The notes of pose_graph_of() are comments.
 Result<void> write_g2o(const graph::FactorGraph& graph, const graph::Values& values,
                        const std::filesystem::path& path);
 

@@ -56,7 +56,7 @@ TEST(OptimumOf, IsBelowWhatEveryBackEndFindsAndNotByMuch) {
 TEST(OptimumNear, IsNeverWorseThanItsFirstStart) {
   const formats::PoseGraph graph = walk();
   const formats::GraphProblem problem = formats::factor_graph_of(graph);
-  const double chi2 = edges_chi2(problem.factors, problem.values);
+  const double chi2 = chi2_of(problem.factors, problem.values, Measure::kEdges);
   // Without a prior the graph is free to move: no solver leads anywhere.
   EXPECT_LE(optimum_near(problem.factors, {problem.values}).chi2, chi2);
 }
