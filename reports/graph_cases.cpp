@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kMicroseconds = 1e6;
 // Columns of updates.csv that are shown.
-constexpr std::size_t kPoses = 2, kTime = 3, kChi2 = 6, kOptimum = 7, kNewestGap = 8,
-                      kNumFields = 10;
+constexpr std::size_t kPoses = 2, kTime = 3, kChi2 = 7, kOptimum = 8, kNewestGap = 9,
+                      kNumFields = 11;
 
 // Empty fields are not numbers.
 std::optional<std::array<std::optional<double>, kNumFields>> fields_of(std::string_view line) {

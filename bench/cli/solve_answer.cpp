@@ -71,6 +71,7 @@ Json to_json(const SolveCommand& command, const ParamValues& overrides,
   json["dropped_edges"] = run.num_dropped;
   json["relinearized"] = run.num_relinearized;
   json["eliminated"] = run.num_eliminated;
+  json["factor_nonzeros"] = run.num_factor_nonzeros > 0 ? Json(run.num_factor_nonzeros) : Json();
   json["chi2"] = or_null(run.chi2);
   json["chi2_initial"] = or_null(run.chi2_initial);
   json["cost"] = or_null(run.cost);

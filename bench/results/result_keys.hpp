@@ -123,6 +123,8 @@ void visit_estimator(auto& r, auto&& v) {
   v(ResultKey{"relinearised", "1", "variables relinearised, summed over the run"}, r.relinearised);
   v(ResultKey{"iterations", "1", "iterations of the solver, summed over the run"}, r.iterations);
   v(ResultKey{"eliminated", "1", "variables eliminated anew, summed over the run"}, r.eliminated);
+  v(ResultKey{"factor_nonzeros", "1", "nonzeros of the Cholesky factor at the end"},
+    r.factor_nonzeros);
   v(ResultKey{"chi2_initial", "1", "chi2 of a graph's initial values"}, r.chi2_initial);
   v(ResultKey{"chi2_best", "1", "smallest chi2 that is known for the graph", false}, r.chi2_best);
   v(ResultKey{"chi2_best_source", "", "catalogue, or own: found beside the case", false},

@@ -116,7 +116,7 @@ struct RunResult {
   std::optional<double> chi2;
   std::optional<std::int64_t> factors, variables, relinearised;
   // Of cases that solve a graph.
-  std::optional<std::int64_t> iterations, eliminated;
+  std::optional<std::int64_t> iterations, eliminated, factor_nonzeros;
   std::optional<double> chi2_initial;
   std::optional<double> chi2_best;              // the smallest that is known
   std::optional<std::string> chi2_best_source;  // "catalogue", or "own": found beside the case

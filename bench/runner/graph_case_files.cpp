@@ -34,17 +34,21 @@ formats::PoseGraph graph_at(const formats::PoseGraph& graph, const Poses& poses)
   return moved;
 }
 
+// Empty for what is not known.
+std::string known(std::int64_t count) { return count > 0 ? fmt::format("{}", count) : ""; }
+
 std::string updates_csv(const solve::SolveRun& run,
                         const std::vector<solve::Checkpoint>& checkpoints) {
   std::string text =
-      "update,newest_pose,poses,time_us,relinearised,eliminated,chi2,chi2_optimum,newest_gap_m,"
+      "update,newest_pose,poses,time_us,relinearised,eliminated,factor_nonzeros,chi2,chi2_optimum,"
+      "newest_gap_m,"
       "newest_gap_rad\n";
   auto checkpoint = checkpoints.begin();
   for (std::size_t k = 0; k < run.updates.size(); ++k) {
     const solve::Update& update = run.updates[k];
-    text += fmt::format("{},{},{},{:.3f},{},{},", k, update.newest, update.num_poses,
+    text += fmt::format("{},{},{},{:.3f},{},{},{},", k, update.newest, update.num_poses,
                         kMicroseconds * run.updates_s[k], update.num_relinearized,
-                        update.num_eliminated);
+                        update.num_eliminated, known(update.num_factor_nonzeros));
     if (checkpoint != checkpoints.end() && checkpoint->update_index == k) {
       text += fmt::format("{},{},{},{}\n", checkpoint->chi2, checkpoint->chi2_optimum,
                           checkpoint->newest_gap_m, checkpoint->newest_gap_rad);

@@ -106,6 +106,7 @@ void score_solution(const GraphSize& size, const solve::SolveRun& run, RunResult
   result.relinearised = run.num_relinearized;
   // Solvers that factorise everything anew count no variables.
   if (run.num_eliminated > 0) result.eliminated = run.num_eliminated;
+  if (run.num_factor_nonzeros > 0) result.factor_nonzeros = run.num_factor_nonzeros;
   result.iterations = run.num_iterations;
   result.chi2 = run.chi2;
   result.chi2_initial = run.chi2_initial;

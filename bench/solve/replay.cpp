@@ -128,6 +128,7 @@ class Replay {
     if (update == nullptr) return;
     update->num_relinearized = std::exchange(num_open_relinearized_, 0);
     update->num_eliminated = std::exchange(num_open_eliminated_, 0);
+    update->num_factor_nonzeros = report.num_factor_nonzeros;
     run_.updates_s.push_back(std::exchange(open_s_, 0));
     run_.updates.push_back(*update);
     if (options_.after_update) options_.after_update(back_end_, run_.updates.back());
@@ -154,6 +155,7 @@ void count(const BackEndReport& report, SolveRun& run) {
   run.num_iterations += report.num_iterations;
   run.num_relinearized += report.num_relinearized;
   run.num_eliminated += report.num_eliminated;
+  run.num_factor_nonzeros = report.num_factor_nonzeros;
   run.num_dropped += report.num_dropped_factors;
 }
 

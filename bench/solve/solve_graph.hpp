@@ -52,6 +52,7 @@ struct Update {
   std::size_t num_poses = 0;  // so far
   std::int64_t num_relinearized = 0;
   std::int64_t num_eliminated = 0;
+  std::int64_t num_factor_nonzeros = 0;  // 0: unknown
 };
 
 struct SolveOptions {
@@ -81,6 +82,7 @@ struct SolveRun {
   std::int64_t num_iterations = 0;
   std::int64_t num_relinearized = 0;
   std::int64_t num_eliminated = 0;
+  std::int64_t num_factor_nonzeros = 0;  // of the last solution; 0: unknown
   // Edges to poses that a back-end has forgotten; in chi2 all the same.
   std::int64_t num_dropped = 0;
   // By the graph's Measure (optimum.hpp); that of the edges has rejected ones in it. Of kBatch also

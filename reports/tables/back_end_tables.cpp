@@ -31,6 +31,11 @@ std::vector<Metric> whole_metrics() {
                          if (!r.iterations) return std::nullopt;
                          return static_cast<double>(*r.iterations);
                        }),
+          graph_metric("factor_nonzeros", "nonzeros of L", 0,
+                       [](const RunResult& r) -> std::optional<double> {
+                         if (!r.factor_nonzeros) return std::nullopt;
+                         return static_cast<double>(*r.factor_nonzeros);
+                       }),
           graph_metric("peak_rss_mib", "peak memory [MiB]", 0,
                        [](const RunResult& r) { return r.peak_rss_mib; }),
           graph_metric("position_rmse_m", "position error [m]", 3,

@@ -54,6 +54,7 @@ struct BackEndReport {
   std::int64_t num_variables = 0;
   std::int64_t num_relinearized = 0;       // variables moved by this update, summed over iterations
   std::int64_t num_eliminated = 0;         // variables eliminated anew, summed over iterations
+  std::int64_t num_factor_nonzeros = 0;    // of the factor L; 0 where a back-end does not say
   std::optional<graph::Key> undetermined;  // with kRankDeficient: a variable that nothing holds
   std::vector<graph::FactorId> new_factor_ids;  // of `new_factors`, in order
   // Of a back-end that forgets, since its report before: new factors that were left out because

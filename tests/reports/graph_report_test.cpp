@@ -144,10 +144,11 @@ TEST(ProfileFigure, LeavesOutWhatNotEveryBackEndWasGiven) {
 // A run of 1000 updates that take poses^1.5 us, with a checkpoint at every hundredth.
 std::string updates_text() {
   std::string text =
-      "update,newest_pose,poses,time_us,relinearised,eliminated,chi2,chi2_optimum,newest_gap_m,"
+      "update,newest_pose,poses,time_us,relinearised,eliminated,factor_nonzeros,chi2,chi2_optimum,"
+      "newest_gap_m,"
       "newest_gap_rad\n";
   for (int k = 0; k < 1000; ++k) {
-    text += fmt::format("{},{},{},{},1,2,{}\n", k, k, k + 1, std::pow(k + 1, 1.5),
+    text += fmt::format("{},{},{},{},1,2,3,{}\n", k, k, k + 1, std::pow(k + 1, 1.5),
                         k % 100 == 99 ? "11,10,0.5,0.1" : ",,,");
   }
   return text;

@@ -125,6 +125,7 @@ class LeastSquares final : public BackEnd {
       ++report.num_iterations;
       iterate(damping, report.num_iterations == max_iterations, goal, report);
     }
+    report.num_factor_nonzeros = static_cast<std::int64_t>(cholesky_->num_factor_nonzeros());
     return report;
   }
 

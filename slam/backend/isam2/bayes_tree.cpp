@@ -147,6 +147,7 @@ void BayesTree::drop(int number) {
   memory_.give_back(clique.memory,
                     Front::memory_size(clique.front.num_pivots(), clique.front.num_below()));
   detached_factors_.insert(detached_factors_.end(), clique.factors.begin(), clique.factors.end());
+  num_nonzeros_ -= clique.front.num_nonzeros();
   clique.variables.clear();
   clique.factors.clear();
   clique.num_frontals = 0;
@@ -215,6 +216,7 @@ int BayesTree::make_clique(const linear::Supernode& node) {
   clique.birth = ++num_births_;
   clique.memory = memory_.take(Front::memory_size(num_pivots, num_below));
   clique.front = Front(clique.memory, num_pivots, num_below);
+  num_nonzeros_ += clique.front.num_nonzeros();
   return number;
 }
 

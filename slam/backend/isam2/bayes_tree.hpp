@@ -128,6 +128,8 @@ class BayesTree {
   }
   [[nodiscard]] const std::vector<int>& roots() const { return roots_; }
   [[nodiscard]] std::size_t num_cliques() const { return cliques_.size() - free_cliques_.size(); }
+  // Of the factor L, with the zeros that cliques fill.
+  [[nodiscard]] std::int64_t num_nonzeros() const { return num_nonzeros_; }
   // Doubles taken for fronts, in use or not.
   [[nodiscard]] std::size_t memory_capacity() const { return memory_.capacity(); }
 
@@ -145,6 +147,7 @@ class BayesTree {
   void solve(Clique& clique, double threshold, bool& is_changed);
   Eigen::MatrixXd joint_covariance(const Clique& clique, const Eigen::MatrixXd& of_separator) const;
 
+  std::int64_t num_nonzeros_ = 0;
   // By variable.
   std::vector<int> dimensions_, first_rows_, clique_of_, rows_;
   std::vector<int> free_variables_;

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "slam/linear/block_pattern.hpp"
@@ -31,6 +32,11 @@ class Front {
 
   [[nodiscard]] int num_pivots() const { return num_pivots_; }
   [[nodiscard]] int num_below() const { return num_below_; }
+  // Of L.
+  [[nodiscard]] std::int64_t num_nonzeros() const {
+    return std::int64_t{num_pivots_} * (num_pivots_ + 1) / 2 +
+           std::int64_t{num_pivots_} * num_below_;
+  }
   // Row of the gradient.
   [[nodiscard]] int last_row() const { return num_pivots_ + num_below_; }
 

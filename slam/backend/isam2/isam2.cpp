@@ -349,6 +349,7 @@ class Isam2 final : public BackEnd {
   BackEndReport finished(BackEndReport& report) {
     report.num_factors = static_cast<std::int64_t>(graph_.num_factors());
     report.num_variables = static_cast<std::int64_t>(linearization_.size());
+    report.num_factor_nonzeros = tree_.num_nonzeros();
     report.num_cliques = static_cast<std::int64_t>(tree_.num_cliques());
     report.front_memory_bytes = static_cast<std::int64_t>(tree_.memory_capacity() * sizeof(double));
     is_estimate_current_ = false;

@@ -38,7 +38,8 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "slip_latency_s degeneracy_precision degeneracy_recall stages step_p50_us step_p95_us "
       "step_p99_us step_max_us wall_s cpu_s peak_rss_mib realtime_factor "
       // of pose graphs
-      "data_kind iterations eliminated chi2_initial chi2_best chi2_best_source chi2_gap_ratio "
+      "data_kind iterations eliminated factor_nonzeros chi2_initial chi2_best chi2_best_source "
+      "chi2_gap_ratio "
       "run_gap_p50_ratio run_gap_max_ratio run_newest_gap_max_m step_mean_us init_s "
       "false_closures rejected_closures rejection_precision rejection_recall "
       // beyond the contract's table

@@ -142,13 +142,14 @@ TEST_F(GraphCase, OfAnIncrementalRunHasALinePerUpdateAndTheGapAtCheckpoints) {
   EXPECT_TRUE(result.run_newest_gap_max_m.has_value());
   EXPECT_GT(*result.online_scores.position_rmse_m, 0);
   EXPECT_GT(*result.eliminated, 300);
+  EXPECT_GT(*result.factor_nonzeros, 100 * 6);
   std::ifstream csv(file(result, "updates.csv"));
   std::string line;
   int num_lines = 0, num_checkpoints = 0;
   std::getline(csv, line);
   EXPECT_EQ(line,
-            "update,newest_pose,poses,time_us,relinearised,eliminated,chi2,chi2_optimum,"
-            "newest_gap_m,newest_gap_rad");
+            "update,newest_pose,poses,time_us,relinearised,eliminated,factor_nonzeros,chi2,"
+            "chi2_optimum,newest_gap_m,newest_gap_rad");
   while (std::getline(csv, line)) {
     ++num_lines;
     num_checkpoints += line.ends_with(",,,") ? 0 : 1;

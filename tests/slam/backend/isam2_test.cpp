@@ -151,6 +151,22 @@ RC_GTEST_PROP(Isam2, MarginalisingChangesNoEstimateOfTheOthers, (std::uint64_t s
   }
 }
 
+// A chain of n poses fills nothing: n blocks on the diagonal, n - 1 below it. Cliques of several
+// poses may add zeros, and a tree that forgets cliques would keep growing.
+TEST(Isam2, CountsTheFactorOfAChain) {
+  const auto solver = make_isam2({});
+  BackEndReport report;
+  constexpr std::uint32_t kNumPoses = 100;
+  for (std::uint32_t i = 0; i < kNumPoses; ++i) {
+    graph::Values values;
+    values.set_pose(i, Pose2(i, 0, 0));
+    report = solver->update({i == 0 ? prior(0) : edge(i - 1, i, {1, 0, 0})}, values, {});
+  }
+  const std::int64_t exact = kNumPoses * 6 + (kNumPoses - 1) * 9;
+  EXPECT_GE(report.num_factor_nonzeros, exact);
+  EXPECT_LE(report.num_factor_nonzeros, 2 * exact);
+}
+
 TEST(Isam2, AWindowThatMovesAlongDoesNotGrow) {
   const auto solver = make_isam2({});
   constexpr std::uint32_t kLag = 20;
