@@ -234,7 +234,7 @@ tl::expected<RunResult, CaseFailure> run_graph_case(const CaseSpec& spec,
   score_solution(size, *run, result);
   score_rejection(graph, graph_case->task.options, *run, result);
   score_poses(size, graph_case->data.true_poses, final, online, result);
-  score_times(*run, result);
+  score_times(graph_case->task.options.mode, *run, result);
   score_trace(*checkpoints, result);
   settle_status(size, graph_case->task.options.mode, *run, result);
 
