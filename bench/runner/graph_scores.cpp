@@ -136,11 +136,8 @@ void score_times(solve::Mode mode, const solve::SolveRun& run, RunResult& result
                      stage_times(Stage::kOptimise, std::vector{run.total_s - run.init_s})};
     return;
   }
-  // A system that closes no loop may never have its graph solved.
-  if (run.updates_s.empty()) {
-    result.stages = {stage_times(Stage::kOther, std::vector{run.total_s})};
-    return;
-  }
+  // Lost at its first pose.
+  if (run.updates_s.empty()) return;
   const double updates_s = std::accumulate(run.updates_s.begin(), run.updates_s.end(), 0.0);
   score_steps(run.updates_s, result);
   result.step_mean_us = kMicroseconds * updates_s / static_cast<double>(run.updates_s.size());

@@ -167,7 +167,7 @@ TEST(GraphOf, IsSkippedWhereItsSystemLacksASensorOrItsDataAreNotHere) {
 TEST_F(GraphOfCase, HasInertialFactorsOfFusion) {
   const auto recording = record_graph(*graph_of_from(name_, {}), {});
   ASSERT_TRUE(recording.has_value()) << recording.error().to_line();
-  const auto kinds = solve::kinds_of(recording->factors());
+  const auto kinds = solve::kinds_of(recording->recording.factors());
   for (const char* kind : {"imu_motion", "bias_walk", "wheel_motion", "relative_pose"}) {
     EXPECT_TRUE(kinds.contains(kind)) << kind;
   }
@@ -200,6 +200,13 @@ TEST_F(GraphOfCase, CallByCallHasEveryUpdateItsTimeAndTheGapAlongTheRun) {
   while (std::getline(updates, line)) ++num_rows;
   EXPECT_GE(num_rows, *result.poses_expected) << "one for every key scan, more for closures";
   EXPECT_TRUE(std::filesystem::exists(folder / "final.g2o"));
+}
+
+TEST_F(GraphOfCase, IsRefusedWhereTheSystemNeverHasItSolved) {
+  const std::string path = (folder_ / "short.toml").string();
+  const auto refused = record_graph(*graph_of_from("graph-of:karto:" + path + ":7", {}), {});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().to_line().find("never has its graph solved"), std::string::npos);
 }
 
 TEST_F(GraphOfCase, IsRefusedByATaskThatItCannotHave) {

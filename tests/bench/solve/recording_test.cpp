@@ -181,6 +181,21 @@ TEST(Recording, IsTracedAlongItsUpdatesAndIsNeverBelowTheOptimum) {
   EXPECT_NEAR(checkpoints->back().chi2_optimum, chi2_optimum, 1e-6 * chi2_optimum);
 }
 
+TEST(Recording, EndsWhereTheSystemHadItSolvedLast) {
+  Recording recording;
+  const auto recorder = make_recording(backend::make_isam2({}), recording);
+  drive(*recorder);
+  const graph::FactorGraph solved = recording.factors();
+  graph::Values late;
+  late.set_pose(kNumPoses, Pose2());
+  recorder->add({far_edge(0, kNumPoses)}, late);
+  recording.final_estimate = recorder->estimate();
+  EXPECT_EQ(drop_unsolved_end(recording), 1U);
+  EXPECT_EQ(recording.factors().num_factors(), solved.num_factors());
+  EXPECT_EQ(recording.final_estimate.keys(), recording.initial_values().keys());
+  EXPECT_EQ(drop_unsolved_end(recording), 0U);
+}
+
 TEST(Recording, OfWhatWasMarginalizedIsReplayedByThoseWhoCanAndRefusedByOthers) {
   Recording recording;
   const auto recorder = make_recording(backend::make_isam2({}), recording);
