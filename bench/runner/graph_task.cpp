@@ -78,7 +78,9 @@ std::optional<std::string> why_unfit(const GraphTask& task, bool is_of_system) {
     return task.use_calls ? std::optional("replays a system's calls, and this is a pose graph")
                           : std::nullopt;
   }
-  if (!is_batch && !task.use_calls) return "goes pose by pose, and this graph has calls";
+  if (!is_batch && !task.use_calls) {
+    return "goes pose by pose, and this graph has calls: see profile calls";
+  }
   if (task.false_closures > 0 || task.options.rejection != solve::Rejection::kNone ||
       task.options.kernel.kind != graph::KernelKind::kNone) {
     return "treats closures as such, and this graph has none that are told apart";

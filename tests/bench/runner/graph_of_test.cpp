@@ -136,7 +136,7 @@ TEST(GraphOf, IsPlannedForWhatCanSolveItAndTheRestIsSkippedWithItsReason) {
   EXPECT_EQ(num_cases, expected);
   const std::string on = " on graph-of:fusion@default:paper-corridor:5: skipped: ";
   const std::string moved = "starts elsewhere, and this graph has the values that its system gave";
-  const std::string by_pose = "goes pose by pose, and this graph has calls";
+  const std::string by_pose = "goes pose by pose, and this graph has calls: see profile calls";
   EXPECT_EQ(
       plan.skipped,
       (std::vector<std::string>{

@@ -138,6 +138,9 @@ TEST(Recording, MapsRemovedFactorsWhereBackEndsNumberThemOtherwise) {
   const auto used = make_used();
   ASSERT_TRUE(solve_graph(recording, *used, {.mode = Mode::kIncremental}).has_value());
   EXPECT_EQ(used->graph().num_factors(), recording.factors().num_factors() + 1);
+  // The prior that it has more is met.
+  EXPECT_NEAR(used->graph().cost(used->estimate()), recording.factors().cost(used->estimate()),
+              1e-6);
 }
 
 TEST(Recording, CountsCallsThatOnlyAddAsPartOfTheUpdateThatSolves) {
