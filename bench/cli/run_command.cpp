@@ -119,8 +119,9 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--system", systems, "System, S or S@PROFILE, instead of the suite's; repeat")
       ->type_name("S[@PROFILE]");
   command.add_option("--backend", backends, "Back-end instead of the systems' own; repeat");
-  command.add_option("--dataset", datasets,
-                     "Data set, log file or scenario instead of the suite's; repeat");
+  command.add_option(
+      "--dataset", datasets,
+      "Data set, file, scenario or graph-of:SYSTEM:DATA[:SEED] instead of the suite's; repeat");
   command.add_option("--set", overrides, "Parameter of a system or back-end; repeat")
       ->type_name("NAME.key=value");
   command.add_flag("--resume", is_resumed,

@@ -110,7 +110,7 @@ void score_solution(const GraphSize& size, const solve::SolveRun& run, RunResult
   result.iterations = run.num_iterations;
   result.chi2 = run.chi2;
   result.chi2_initial = run.chi2_initial;
-  if (run.chi2 && *result.chi2_best > 0) {
+  if (run.chi2 && *result.chi2_best > solve::kMinTracedChi2) {
     result.chi2_gap_ratio = *run.chi2 / *result.chi2_best - 1;
   }
 }
@@ -127,16 +127,18 @@ void score_rejection(const formats::PoseGraph& graph, const solve::SolveOptions&
   result.rejection_recall = score.recall;
 }
 
-void score_times(const solve::SolveRun& run, RunResult& result) {
+void score_times(solve::Mode mode, const solve::SolveRun& run, RunResult& result) {
   result.wall_s = run.total_s;
   result.cpu_s = run.cpu_s;
   result.peak_rss_mib = run.peak_rss_mib;
-  if (run.updates_s.empty()) {
+  if (mode == solve::Mode::kBatch) {
     result.init_s = run.init_s;
     result.stages = {stage_times(Stage::kPreprocess, std::vector{run.init_s}),
                      stage_times(Stage::kOptimise, std::vector{run.total_s - run.init_s})};
     return;
   }
+  // Lost at its first pose.
+  if (run.updates_s.empty()) return;
   const double updates_s = std::accumulate(run.updates_s.begin(), run.updates_s.end(), 0.0);
   score_steps(run.updates_s, result);
   result.step_mean_us = kMicroseconds * updates_s / static_cast<double>(run.updates_s.size());

@@ -36,7 +36,7 @@ void score_rejection(const formats::PoseGraph& graph, const solve::SolveOptions&
 void score_poses(const GraphSize& size, const Poses& truth, const Poses& final, const Poses& online,
                  results::RunResult& result);
 
-void score_times(const solve::SolveRun& run, results::RunResult& result);
+void score_times(solve::Mode mode, const solve::SolveRun& run, results::RunResult& result);
 
 void score_trace(const std::vector<solve::Checkpoint>& checkpoints, results::RunResult& result);
 

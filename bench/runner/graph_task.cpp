@@ -78,14 +78,16 @@ std::optional<std::string> why_unfit(const GraphTask& task, bool is_of_system) {
     return task.use_calls ? std::optional("replays a system's calls, and this is a pose graph")
                           : std::nullopt;
   }
-  if (!is_batch && !task.use_calls) return "goes pose by pose, and this graph has calls";
-  if (task.starts_at_optimum || task.has_start_noise() ||
-      task.options.init != solve::Initialization::kFile) {
-    return "starts elsewhere, and this graph has the values that its system gave";
+  if (!is_batch && !task.use_calls) {
+    return "goes pose by pose, and this graph has calls: see profile calls";
   }
   if (task.false_closures > 0 || task.options.rejection != solve::Rejection::kNone ||
       task.options.kernel.kind != graph::KernelKind::kNone) {
     return "treats closures as such, and this graph has none that are told apart";
+  }
+  if (task.starts_at_optimum || task.has_start_noise() ||
+      task.options.init != solve::Initialization::kFile) {
+    return "starts elsewhere, and this graph has the values that its system gave";
   }
   return std::nullopt;
 }

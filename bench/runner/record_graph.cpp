@@ -19,14 +19,14 @@ Error of_graph(const GraphOf& graph, Error error) {
 
 }  // namespace
 
-Result<solve::Recording> record_graph(const GraphOf& graph, const catalog::DataDirs& dirs) {
+Result<RecordedGraph> record_graph(const GraphOf& graph, const catalog::DataDirs& dirs) {
   const CaseSpec spec = case_of(graph);
   const Result<CaseData> data = load_case_data(spec, dirs);
   if (!data) return tl::make_unexpected(of_graph(graph, data.error()));
-  solve::Recording recording;
+  RecordedGraph recorded;
   const backend::BackEnd* back_end = nullptr;  // the system's, as long as the system lives
   const auto system = make_system(spec, *data, [&](std::unique_ptr<backend::BackEnd> own) {
-    auto recorder = solve::make_recording(std::move(own), recording);
+    auto recorder = solve::make_recording(std::move(own), recorded.recording);
     back_end = recorder.get();
     return recorder;
   });
@@ -38,11 +38,13 @@ Result<solve::Recording> record_graph(const GraphOf& graph, const catalog::DataD
         fmt::format("the system ended as {}: {}", results::to_text(run.status), run.status_message),
         to_text(graph), "data that the system gets through");
   }
-  if (recording.steps.empty()) {
-    return fail(ErrorCode::kInvalid, "the system made no graph", to_text(graph), "data with scans");
+  recorded.recording.final_estimate = back_end->estimate();
+  recorded.num_dropped_factors = solve::drop_unsolved_end(recorded.recording);
+  if (recorded.recording.steps.empty()) {
+    return fail(ErrorCode::kInvalid, "the system never has its graph solved", to_text(graph),
+                "data in which it closes a loop, or solves without");
   }
-  recording.final_estimate = back_end->estimate();
-  return recording;
+  return recorded;
 }
 
 }  // namespace corridor::runner

@@ -55,12 +55,17 @@ Result<GraphCase> load(const CaseSpec& spec, const catalog::DataDirs& dirs, Grap
   }
   const Result<GraphOf> graph = graph_of_from(spec.data_source, *known);
   if (!graph) return tl::make_unexpected(graph.error());
-  auto recording = record_graph(*graph, dirs);
-  if (!recording) return tl::make_unexpected(recording.error());
+  auto recorded = record_graph(*graph, dirs);
+  if (!recorded) return tl::make_unexpected(recorded.error());
+  solve::Recording& recording = recorded->recording;
   catalog::LoadedGraph data;
   data.name = spec.dataset;
-  data.graph = formats::pose_graph_of(recording->factors(), recording->initial_values());
-  return GraphCase{std::move(data), std::move(*recording), std::move(task), {}, ""};
+  data.graph = formats::pose_graph_of(recording.factors(), recording.initial_values());
+  if (recorded->num_dropped_factors > 0) {
+    data.graph.notes.push_back(fmt::format("left out: {} factors that came after the last solution",
+                                           recorded->num_dropped_factors));
+  }
+  return GraphCase{std::move(data), std::move(recording), std::move(task), {}, ""};
 }
 
 Result<GraphTask> task_of(const CaseSpec& spec) {
@@ -234,7 +239,7 @@ tl::expected<RunResult, CaseFailure> run_graph_case(const CaseSpec& spec,
   score_solution(size, *run, result);
   score_rejection(graph, graph_case->task.options, *run, result);
   score_poses(size, graph_case->data.true_poses, final, online, result);
-  score_times(*run, result);
+  score_times(graph_case->task.options.mode, *run, result);
   score_trace(*checkpoints, result);
   settle_status(size, graph_case->task.options.mode, *run, result);
 

@@ -145,6 +145,20 @@ Steps steps_of(const Recording& recording) {
   return {recording.steps.size(), [&recording](std::size_t k) { return recording.steps[k]; }};
 }
 
+std::size_t drop_unsolved_end(Recording& recording) {
+  std::size_t num_dropped = 0;
+  std::vector<Step>& steps = recording.steps;
+  while (!steps.empty() && !steps.back().reading) {
+    num_dropped += steps.back().factors.size();
+    steps.pop_back();
+  }
+  const Values kept = recording.initial_values();
+  for (const graph::Key key : recording.final_estimate.keys()) {
+    if (!kept.contains(key)) recording.final_estimate.erase(key);
+  }
+  return num_dropped;
+}
+
 std::unique_ptr<BackEnd> make_recording(std::unique_ptr<BackEnd> back_end, Recording& recording) {
   return std::make_unique<RecordingBackEnd>(std::move(back_end), recording);
 }

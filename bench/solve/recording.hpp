@@ -27,9 +27,14 @@ struct Recording {
 
 Steps steps_of(const Recording& recording);
 
+// Takes away what came after the last call that solves, steps and final values: nobody ever asked
+// for its solution, and it would be the same gap to the optimum for every back-end. The number of
+// factors that went; all, where nothing solves.
+std::size_t drop_unsolved_end(Recording& recording);
+
 // Wraps the back-end of a system: forwards everything, and keeps each call in `recording`, which
 // must outlive it. A call that solves ends an update; calls that only add, set or marginalise are
-// part of the next one. Those behind the last solution are not part of any.
+// part of the next one.
 std::unique_ptr<backend::BackEnd> make_recording(std::unique_ptr<backend::BackEnd> back_end,
                                                  Recording& recording);
 
