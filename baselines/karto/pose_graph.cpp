@@ -22,8 +22,8 @@ void PoseGraph::add_pose(const Pose2& T_map_base) {
   const Pose2 T_start_base = T_map_start_.between(T_map_base);
   std::vector<graph::NewFactor> factors;
   if (num_poses_ == 0) {
-    factors.push_back(graph::PosePrior(
-        graph::pose_key(0), T_start_base, kGaugeSqrtInformation * Eigen::Matrix3d::Identity()));
+    factors.push_back(graph::PosePrior(graph::pose_key(0), T_start_base,
+                                       kGaugeSqrtInformation * Eigen::Matrix3d::Identity()));
   }
   graph::Values values;
   values.set_pose(num_poses_++, T_start_base);

@@ -39,8 +39,7 @@ TEST(G2oFile, FixesThePosesThatHaveAPrior) {
   values.set_pose(0, Pose2());
   values.set_pose(3, Pose2());
   graph::FactorGraph factors;
-  factors.add(
-      graph::PosePrior(pose_key(3), Pose2(), Eigen::Matrix3d::Identity()));
+  factors.add(graph::PosePrior(pose_key(3), Pose2(), Eigen::Matrix3d::Identity()));
   const ScratchFolder folder;
   ASSERT_TRUE(write_g2o(factors, values, folder / "g.g2o"));
   const std::string text = read_text(folder / "g.g2o");

@@ -160,7 +160,8 @@ TEST(Isam2, CountsTheFactorOfAChain) {
   for (std::uint32_t i = 0; i < kNumPoses; ++i) {
     graph::Values values;
     values.set_pose(i, Pose2(i, 0, 0));
-    report = solver->update({i == 0 ? prior(0) : edge(i - 1, i, {1, 0, 0})}, values, {});
+    const NewFactor factor = i == 0 ? NewFactor(prior(0)) : NewFactor(edge(i - 1, i, {1, 0, 0}));
+    report = solver->update({factor}, values, {});
   }
   const std::int64_t exact = kNumPoses * 6 + (kNumPoses - 1) * 9;
   EXPECT_GE(report.num_factor_nonzeros, exact);
