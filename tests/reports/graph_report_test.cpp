@@ -172,8 +172,8 @@ TEST(UpdateFigures, SayWhatTheyCannotRead) {
   const testing::ScratchFolder folder;
   results::RunResult result = graph_result("isam2", "a", 1, 0);
   result.step_max_us = 10;
-  for (const char* broken :
-       {"names\n0,0,1\n", "names\n0,0,one,5,1,2,,,,\n", "names\n0,0,1,5,1,2,,,,,\n", "names\n\n"}) {
+  for (const char* broken : {"names\n0,0,1\n", "names\n0,0,one,5,1,2,,,,,\n",
+                             "names\n0,0,1,5,1,2,,,,,,\n", "names\n\n"}) {
     folder.write(result.case_id + "/updates.csv", broken);
     std::vector<std::string> problems;
     EXPECT_FALSE(figures::update_figure(cases_of({result}, folder.path()), "a", problems));
