@@ -53,10 +53,6 @@ std::optional<Child> start(const ChildTask& task, std::size_t index, const sigse
   return Child{index, process, Clock::now(), std::nullopt};
 }
 
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 void enforce_limits(const ChildTask& task, Child& child) {
   if (child.killed_for) return;
   if (seconds_since(child.begin) > task.time_limit_s) {

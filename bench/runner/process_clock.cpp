@@ -16,6 +16,10 @@ constexpr double kBytesPerMib = 1024.0 * 1024.0;
 
 }  // namespace
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 double process_cpu_s() {
   constexpr double kNanoseconds = 1e-9;
   timespec now{};

@@ -1,12 +1,15 @@
-// What a process has used: processor time and peak memory, from the kernel.
+// What a process has used: time since a moment, processor time and peak memory from the kernel.
 #pragma once
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
 namespace corridor::runner {
+
+double seconds_since(std::chrono::steady_clock::time_point start);
 
 // Processor time of all threads of this process so far [s].
 double process_cpu_s();

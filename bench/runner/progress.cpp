@@ -5,13 +5,10 @@
 #include <cstdio>
 
 #include "bench/runner/printable.hpp"
+#include "bench/runner/process_clock.hpp"
 
 namespace corridor::runner {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 std::string duration_text(double seconds) {
   const int whole_s = static_cast<int>(seconds);

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "bench/runner/process_clock.hpp"
+
 namespace corridor::solve {
 namespace {
 
@@ -11,10 +13,6 @@ using backend::BackEndReport;
 using backend::SolveStatus;
 using graph::FactorId;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string message_of(const BackEndReport& report) {
   switch (report.status) {
@@ -56,7 +54,7 @@ void converge(BackEnd& back_end, SolveRun& run) {
   const BackEndReport report = back_end.update_until_converged({});
   run.converge_rounds = report.num_iterations;
   count(report, run);
-  run.converge_s = seconds_since(start);
+  run.converge_s = runner::seconds_since(start);
 }
 
 // One run, from the first step to the last.
@@ -76,7 +74,7 @@ class Replay {
       const Pose2 T_map_newest = back_end_.pose(step.reading->pose);
       update = {step.reading->pose, T_map_newest, step.reading->num_poses};
     }
-    open_s_ += seconds_since(start);
+    open_s_ += runner::seconds_since(start);
     keep(*report, step.call, step.reading ? &update : nullptr);
     return {};
   }

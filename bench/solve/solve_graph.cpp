@@ -29,10 +29,6 @@ using Clock = std::chrono::steady_clock;
 // decides about the peak of memory.
 constexpr std::size_t kFactorsPerCall = 4096;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 Problem problem_of(const Recording& recording) {
   Problem problem{{recording.factors(), recording.initial_values()}, {}, {}, {}, {}};
   problem.measure = Measure::kCost;
@@ -82,7 +78,7 @@ Result<void> solve_batch(Problem& problem, BackEnd& back_end, const SolveOptions
                                      ? initial_values(problem, problem.kept(), options.init)
                                      : initial_values(problem, problem.graph.factors, options.init);
   if (!values) return tl::make_unexpected(values.error());
-  run.init_s = seconds_since(start);
+  run.init_s = runner::seconds_since(start);
   run.chi2_initial = problem.chi2(*values, options.num_planted);
   const bool is_rejection_done = reject_while_solving(options, problem, *values, run);
   back_end.add(problem.priors, *values);
@@ -96,7 +92,7 @@ Result<void> solve_batch(Problem& problem, BackEnd& back_end, const SolveOptions
     back_end.add(std::move(edges), {});
   }
   count(back_end.solve(), run);
-  run.total_s = seconds_since(start);
+  run.total_s = runner::seconds_since(start);
   if (!is_rejection_done && run.status == SolveStatus::kConverged) {
     run.status = SolveStatus::kMaxIterations;
     run.status_message = "the limit of rounds came before every closure was in or out";
@@ -112,7 +108,7 @@ Result<void> solve_incrementally(const Problem& problem, const Recording* record
                                   : pose_graph_steps(problem, options.poses_per_update);
   if (!steps) return tl::make_unexpected(steps.error());
   auto done = replay(*steps, back_end, options, run);
-  run.total_s = seconds_since(start);
+  run.total_s = runner::seconds_since(start);
   return done;
 }
 

@@ -9,29 +9,18 @@
 #include "bench/runner/plan.hpp"
 #include "bench/runner/run_case.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
+#include "tests/bench/runner/plans.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace corridor::runner {
 namespace {
 
 using results::CaseStatus;
+using testing::plan_of;
+using testing::suite_of;
 
 // Solved within a millisecond.
 constexpr const char* kWalk = "walk-200-s1";
-
-Suite suite_of(const std::vector<std::string>& systems, const std::vector<std::string>& datasets) {
-  Suite suite;
-  suite.name = "test";
-  for (const std::string& text : systems) suite.systems.push_back(*parse_system_choice(text));
-  suite.datasets = datasets;
-  return suite;
-}
-
-Plan plan_of(const Suite& suite) {
-  const Result<Plan> plan = make_plan(suite, catalog::DataDirs{});
-  EXPECT_TRUE(plan.has_value()) << plan.error().to_line();
-  return *plan;
-}
 
 CaseSpec only_case(const std::string& system, const std::string& backend,
                    const std::string& dataset = "walk-300-s5") {

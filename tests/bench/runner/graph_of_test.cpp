@@ -15,6 +15,7 @@
 #include "bench/runner/record_graph.hpp"
 #include "bench/runner/run_case.hpp"
 #include "datasets/formats/log_io.hpp"
+#include "tests/bench/runner/plans.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -22,23 +23,11 @@ namespace corridor::runner {
 namespace {
 
 using results::CaseStatus;
+using testing::plan_of;
+using testing::suite_of;
 
 // A short way, with IMU and wheels.
 constexpr const char* kShortWorld = "base = \"paper-corridor\"\n[world]\na_m = 8\nb_m = 8\n";
-
-Suite suite_of(const std::vector<std::string>& systems, const std::vector<std::string>& datasets) {
-  Suite suite;
-  suite.name = "test";
-  for (const std::string& text : systems) suite.systems.push_back(*parse_system_choice(text));
-  suite.datasets = datasets;
-  return suite;
-}
-
-Plan plan_of(const Suite& suite) {
-  const Result<Plan> plan = make_plan(suite, catalog::DataDirs{});
-  EXPECT_TRUE(plan.has_value()) << plan.error().to_line();
-  return *plan;
-}
 
 class GraphOfCase : public ::testing::Test {
  protected:

@@ -5,25 +5,15 @@
 #include <set>
 
 #include "datasets/formats/log_io.hpp"
+#include "tests/bench/runner/plans.hpp"
 #include "tests/support/room_drive.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace corridor::runner {
 namespace {
 
-Suite suite_of(const std::vector<std::string>& systems) {
-  Suite suite;
-  suite.name = "test";
-  for (const std::string& text : systems) suite.systems.push_back(*parse_system_choice(text));
-  return suite;
-}
-
-// No folder at all: nothing recorded is found.
-Plan plan_of(const Suite& suite) {
-  const Result<Plan> plan = make_plan(suite, catalog::DataDirs{});
-  EXPECT_TRUE(plan.has_value()) << plan.error().to_line();
-  return *plan;
-}
+using testing::plan_of;
+using testing::suite_of;
 
 TEST(Plan, RunsRivalsOnTheSameWorldOneAfterTheOther) {
   Suite suite = suite_of({"karto", "gmapping"});
