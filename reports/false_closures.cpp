@@ -7,7 +7,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "datasets/formats/text.hpp"
+#include "reports/graph_cases.hpp"
 
 namespace corridor::reports {
 namespace {
@@ -17,11 +17,6 @@ using results::RunResult;
 // Parameters of the disturbance and of what is done against it.
 constexpr std::array<std::string_view, 5> kOwnParameters = {
     "false_closures", "false_pairs", "robust", "kernel_width", "inlier_probability"};
-
-std::string parameter(const RunResult& result, const std::string& name) {
-  const auto found = result.parameters.find(name);
-  return found == result.parameters.end() ? std::string() : found->second;
-}
 
 bool is_disturbed(const RunResult& result) {
   const std::string method = method_of(result);
@@ -52,15 +47,16 @@ std::function<bool(const RunResult&)> belongs_to_false_closures(const Cases& gra
 }  // namespace
 
 bool is_found_again(const RunResult& result) {
-  return result.status == results::CaseStatus::kOk && result.chi2_gap_ratio &&
-         *result.chi2_gap_ratio <= kFoundAgain_ratio;
+  if (!result.chi2_gap_ratio) return is_solved(result);
+  return result.status == results::CaseStatus::kOk && *result.chi2_gap_ratio <= kFoundAgain_ratio;
 }
 
-std::string method_of(const RunResult& result) { return parameter(result, "robust"); }
-
-double false_share_of(const RunResult& result) {
-  return formats::parse_double(parameter(result, "false_closures")).value_or(0);
+std::string method_of(const RunResult& result) {
+  const auto found = result.parameters.find("robust");
+  return found == result.parameters.end() ? std::string() : found->second;
 }
+
+double false_share_of(const RunResult& result) { return number_of(result, "false_closures"); }
 
 Cases with_false_closures(const Cases& graphs) {
   return graphs.only(belongs_to_false_closures(graphs));

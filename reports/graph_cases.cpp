@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,12 +45,25 @@ std::optional<UpdateRow> row_of(std::string_view line) {
 
 }  // namespace
 
+double number_of(const results::RunResult& result, const std::string& parameter) {
+  const auto found = result.parameters.find(parameter);
+  return found == result.parameters.end() ? 0 : formats::parse_double(found->second).value_or(0);
+}
+
+bool is_drawn(const results::RunResult& result) {
+  constexpr std::array kWhatIsDrawn = {"start_position_sigma_m", "start_heading_sigma_rad",
+                                       "false_closures"};
+  return std::any_of(kWhatIsDrawn.begin(), kWhatIsDrawn.end(),
+                     [&](const char* name) { return number_of(result, name) > 0; });
+}
+
 bool is_pose_by_pose(const results::RunResult& result) { return result.step_max_us.has_value(); }
 
 bool is_solved(const results::RunResult& result) {
+  if (result.status != results::CaseStatus::kOk) return false;
+  if (!result.chi2_gap_ratio) return result.chi2 && *result.chi2 <= kSolvedExactFit_chi2;
   const double limit = is_pose_by_pose(result) ? kSolvedPoseByPose_ratio : kSolvedAtOnce_ratio;
-  return result.status == results::CaseStatus::kOk && result.chi2_gap_ratio &&
-         *result.chi2_gap_ratio <= limit;
+  return *result.chi2_gap_ratio <= limit;
 }
 
 Result<std::vector<UpdateRow>> read_updates(const std::filesystem::path& case_dir) {

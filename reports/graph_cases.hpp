@@ -17,6 +17,15 @@ namespace corridor::reports {
 // moves.
 inline constexpr double kSolvedAtOnce_ratio = 1e-6;
 inline constexpr double kSolvedPoseByPose_ratio = 5e-4;
+// Where the best fits every measurement there is no ratio: solved is what is a thousandth of a
+// standard deviation away in all.
+inline constexpr double kSolvedExactFit_chi2 = 1e-6;
+
+// The value of a parameter; 0 where the record has none of that name.
+double number_of(const results::RunResult& result, const std::string& parameter);
+// Whether the case's seed draws anything: noise on the start, or false closures. Otherwise every
+// repeat is the same run, and only its times differ.
+bool is_drawn(const results::RunResult& result);
 
 bool is_pose_by_pose(const results::RunResult& result);
 bool is_solved(const results::RunResult& result);

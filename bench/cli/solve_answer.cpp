@@ -67,6 +67,7 @@ Json to_json(const SolveCommand& command, const ParamValues& overrides,
   json["edges"] = graph.edges.size();
   json["status"] = backend::to_text(run.status);
   json["status_message"] = run.status_message;
+  if (!run.notes.empty()) json["notes"] = run.notes;
   json["iterations"] = run.num_iterations;
   json["dropped_edges"] = run.num_dropped;
   json["relinearized"] = run.num_relinearized;
@@ -82,6 +83,7 @@ Json to_json(const SolveCommand& command, const ParamValues& overrides,
   json["converge_rounds"] = or_null(run.converge_rounds);
   json["cpu_s"] = run.cpu_s;
   json["peak_rss_mib"] = or_null(run.peak_rss_mib);
+  json["peak_growth_mib"] = or_null(run.peak_growth_mib);
   json["update_ms"] = update_times(run);
   return json;
 }

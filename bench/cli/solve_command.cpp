@@ -112,7 +112,7 @@ void SolveCommand::add_to(CLI::App& command) {
       ->check(CLI::IsMember(texts_of(solve::kInitializations)));
   command
       .add_option("--robust", robust,
-                  "Kernel of every edge (dcs: of loop closures), or what rejects false closures: "
+                  "Kernel of the loop closures, or what rejects false ones: "
                   "gnc, gnc-geman-mcclure, pcm")
       ->check(CLI::IsMember(solve::robust_methods()));
   command.add_option("--width", width, "Width of the kernel in standard deviations (1)")
@@ -178,7 +178,7 @@ Result<ExitCode> SolveCommand::run(const TreeDrawer& draw_tree) const {
     options.num_planted = *planted;
   }
   LastUpdate last_update;
-  if (!tree.empty()) last_update.watch(*problem, options);
+  if (!tree.empty()) last_update.watch(options);
   const Result<solve::SolveRun> answer = solve::solve_graph(*problem, **solver, options);
   if (!answer) return tl::make_unexpected(of_graph(*this, answer.error()));
   if (has_answer(*answer)) {
@@ -192,6 +192,7 @@ Result<ExitCode> SolveCommand::run(const TreeDrawer& draw_tree) const {
     std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   } else {
     for (const std::string& note : problem->notes) common.say("note: " + note);
+    for (const std::string& note : answer->notes) common.say("note: " + note);
     std::fputs(to_text(json).c_str(), stdout);
   }
   // An update promises no convergence.

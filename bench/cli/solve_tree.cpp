@@ -64,12 +64,11 @@ Result<void> check_tree_size(const SolveCommand& command, const formats::PoseGra
               "--tree", fmt::format("a graph of at most {} poses", kMaxPosesOfTree));
 }
 
-void LastUpdate::watch(const formats::PoseGraph& graph, solve::SolveOptions& options) {
-  options.after_update = [this, num_poses = graph.vertices.size()](const backend::BackEnd& back_end,
-                                                                   const solve::Update& update) {
-    if (update.num_poses + 1 < num_poses) return;
-    newest_ = update.newest;
-    before_ = std::exchange(after_, backend::tree_of(back_end).value_or(backend::TreeSnapshot()));
+void LastUpdate::watch(solve::SolveOptions& options) {
+  options.after_update = [this](const solve::Moment& moment) {
+    newest_ = moment.update.newest;
+    before_ =
+        std::exchange(after_, backend::tree_of(moment.back_end).value_or(backend::TreeSnapshot()));
   };
 }
 

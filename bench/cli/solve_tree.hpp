@@ -20,7 +20,7 @@ Result<void> check_tree_size(const SolveCommand& command, const formats::PoseGra
 class LastUpdate {
  public:
   // Takes snapshots at these steps, with the clock stopped.
-  void watch(const formats::PoseGraph& graph, solve::SolveOptions& options);
+  void watch(solve::SolveOptions& options);
   Result<void> write(const SolveCommand& command, const formats::PoseGraph& graph,
                      const TreeDrawer& draw_tree) const;
 

@@ -167,6 +167,8 @@ void visit_cost(auto& r, auto&& v) {
   v(ResultKey{"cpu_s", "s", "processor time of the same, all threads"}, r.cpu_s);
   v(ResultKey{"peak_rss_mib", "MiB", "largest resident memory while the system ran"},
     r.peak_rss_mib);
+  v(ResultKey{"peak_growth_mib", "MiB", "of that, beyond what the process had before"},
+    r.peak_growth_mib);
   v(ResultKey{"realtime_factor", "1", "duration of the log divided by wall_s"}, r.realtime_factor);
 }
 

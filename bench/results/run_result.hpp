@@ -27,6 +27,10 @@ enum class CaseStatus {
 std::string to_text(CaseStatus status);
 std::optional<CaseStatus> case_status_from_text(const std::string& text);
 
+// A smallest chi2 of at most this says that every measurement is met, as on a drive before its
+// first loop closure: a ratio to it says nothing.
+inline constexpr double kExactFit_chi2 = 1e-9;
+
 struct TrajectoryScores {
   // First poses aligned (the paper's two).
   std::optional<double> position_rmse_m, angle_rmse_deg;
@@ -135,6 +139,7 @@ struct RunResult {
   std::optional<double> step_mean_us, step_p50_us, step_p95_us, step_p99_us, step_max_us;
   std::optional<double> init_s;  // of wall_s: until a graph has initial values
   std::optional<double> wall_s, cpu_s, peak_rss_mib, realtime_factor;
+  std::optional<double> peak_growth_mib;  // of peak_rss_mib; null: an older revision
 };
 
 }  // namespace corridor::results

@@ -37,7 +37,7 @@ Entry entry_of(std::string name, std::string description, ParamsOf params_of, Ma
     if (!params) return tl::make_unexpected(params.error());
     return make(*params);
   };
-  return {{name, std::move(description), table}, make_with};
+  return {{name, std::move(description), table, false}, make_with};
 }
 
 Entry least_squares_entry(std::string name, std::string description, bool use_damping) {
@@ -56,13 +56,19 @@ Entry own_entry(std::string name, std::string description, const P& params, Make
       [params](const LeastSquaresParams&) { return params; }, make);
 }
 
+Entry fixed_lag_entry() {
+  Entry entry = own_entry("fixed-lag", "isam2 on the newest poses; older ones are marginalised",
+                          backend::FixedLagParams(), backend::make_fixed_lag);
+  entry.info.forgets = true;
+  return entry;
+}
+
 std::vector<Entry> entries() {
   return {least_squares_entry("gauss-newton", "batch Gauss-Newton on sparse Cholesky", false),
           least_squares_entry("levenberg", "batch Levenberg-Marquardt on sparse Cholesky", true),
           own_entry("isam2", "incremental smoothing on the Bayes tree [Kaess2012]",
                     backend::Isam2Params(), backend::make_isam2),
-          own_entry("fixed-lag", "isam2 on the newest poses; older ones are marginalised",
-                    backend::FixedLagParams(), backend::make_fixed_lag),
+          fixed_lag_entry(),
           own_entry("ceres", "Ceres Solver with its default settings, a third-party reference",
                     backend::CeresParams(), backend::make_ceres),
           own_entry("ceres@tuned", "Ceres Solver with the settings fastest on pose graphs",
@@ -77,12 +83,17 @@ std::vector<BackEndInfo> back_ends() {
   return infos;
 }
 
-Result<void> check_back_end(std::string_view name) {
-  std::string known;
+std::optional<BackEndInfo> find_back_end(std::string_view name) {
   for (const BackEndInfo& info : back_ends()) {
-    if (info.name == name) return {};
-    known += (known.empty() ? "" : " ") + info.name;
+    if (info.name == name) return info;
   }
+  return std::nullopt;
+}
+
+Result<void> check_back_end(std::string_view name) {
+  if (find_back_end(name)) return {};
+  std::string known;
+  for (const BackEndInfo& info : back_ends()) known += (known.empty() ? "" : " ") + info.name;
   return fail(ErrorCode::kNotFound, fmt::format("unknown back-end \"{}\"", name), "",
               "one of: " + known);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +18,12 @@ struct BackEndInfo {
   std::string name;  // NAME, or NAME@PROFILE where one back-end has several settings
   std::string description;
   std::vector<ParamRow> parameters;  // as the back-end has them where no system says otherwise
+  bool forgets = false;              // old poses, as new ones come: of no use all at once
 };
 
 std::vector<BackEndInfo> back_ends();
+// Nothing for an unknown name.
+std::optional<BackEndInfo> find_back_end(std::string_view name);
 
 // The Error names the known ones.
 Result<void> check_back_end(std::string_view name);

@@ -51,6 +51,7 @@ void score_cost(const Drive& run, const StageClock& clock, double log_duration_s
   result.wall_s = run.wall_s;
   result.cpu_s = run.cpu_s;
   result.peak_rss_mib = run.peak_rss_mib;
+  result.peak_growth_mib = run.peak_growth_mib;
   if (run.wall_s > 0) result.realtime_factor = log_duration_s / run.wall_s;
 }
 

@@ -15,7 +15,7 @@ results::StageTimes stage_times(Stage stage, std::span<const double> samples_s);
 // Fills step_p50_us to step_max_us; null without samples.
 void score_steps(std::span<const double> samples_s, results::RunResult& result);
 
-// Fills stages, step_*, wall_s, cpu_s, peak_rss_mib and realtime_factor. The step_* times are those
+// Fills stages, step_*, wall_s, cpu_s, peak_*_mib and realtime_factor. The step_* times are those
 // of the steps that took a scan: with all the cheap inertial samples counted in, no percentile
 // would show a scan. Stages that were never entered are left out.
 void score_cost(const Drive& run, const StageClock& clock, double log_duration_s,

@@ -83,11 +83,12 @@ void finish(SlamSystem& system, StepStatus last_scan_status, Drive& run) {
 Drive drive(SlamSystem& system, const SensorLog& log) {
   Drive run;
   StepStatus last_scan_status = StepStatus::kNothingToDo;
-  reset_peak_rss();
+  const MemoryWatch memory;
   const double cpu_begin_s = process_cpu_s();
   if (step_all(system, log, run, last_scan_status)) finish(system, last_scan_status, run);
   run.cpu_s = process_cpu_s() - cpu_begin_s;
-  run.peak_rss_mib = peak_rss_mib();
+  run.peak_rss_mib = memory.peak_mib();
+  run.peak_growth_mib = memory.growth_mib();
   const std::vector<double>& steps_s = system.stage_clock().step_samples_s();
   run.wall_s = std::accumulate(steps_s.begin(), steps_s.end(), 0.0);
   return run;

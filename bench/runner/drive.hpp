@@ -23,13 +23,14 @@ struct HealthSample {
 struct Drive {
   results::CaseStatus status = results::CaseStatus::kOk;  // ok, diverged or failed
   std::string status_message;
-  Trajectory online;                     // the poses given at the scans
-  std::optional<SlamEstimate> estimate;  // none after a failure
-  std::vector<HealthSample> health;      // only scans with at least one flag
-  std::vector<double> scan_steps_s;      // step() of each scan event
-  double wall_s = 0;                     // all step() and finish()
-  double cpu_s = 0;                      // of the process meanwhile
-  std::optional<double> peak_rss_mib;    // of the process meanwhile
+  Trajectory online;                      // the poses given at the scans
+  std::optional<SlamEstimate> estimate;   // none after a failure
+  std::vector<HealthSample> health;       // only scans with at least one flag
+  std::vector<double> scan_steps_s;       // step() of each scan event
+  double wall_s = 0;                      // all step() and finish()
+  double cpu_s = 0;                       // of the process meanwhile
+  std::optional<double> peak_rss_mib;     // of the process meanwhile
+  std::optional<double> peak_growth_mib;  // of that, beyond what it had before
 };
 
 Drive drive(SlamSystem& system, const SensorLog& log);

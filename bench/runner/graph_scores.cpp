@@ -97,7 +97,8 @@ void score_poses(const GraphSize& size, const Poses& truth, const Poses& final, 
   if (!online.empty()) evidence.online_trajectory = &online_trajectory;
   evidence.truth_world = &true_trajectory;
   result.true_poses = "truth";
-  result.notes = metrics::score_case(evidence, {}, result);
+  const std::vector<std::string> notes = metrics::score_case(evidence, {}, result);
+  result.notes.insert(result.notes.end(), notes.begin(), notes.end());
 }
 
 void score_solution(const GraphSize& size, const solve::SolveRun& run, RunResult& result) {
@@ -108,9 +109,10 @@ void score_solution(const GraphSize& size, const solve::SolveRun& run, RunResult
   if (run.num_eliminated > 0) result.eliminated = run.num_eliminated;
   if (run.num_factor_nonzeros > 0) result.factor_nonzeros = run.num_factor_nonzeros;
   result.iterations = run.num_iterations;
+  result.notes.insert(result.notes.end(), run.notes.begin(), run.notes.end());
   result.chi2 = run.chi2;
   result.chi2_initial = run.chi2_initial;
-  if (run.chi2 && *result.chi2_best > solve::kMinTracedChi2) {
+  if (run.chi2 && *result.chi2_best > results::kExactFit_chi2) {
     result.chi2_gap_ratio = *run.chi2 / *result.chi2_best - 1;
   }
 }
@@ -131,6 +133,7 @@ void score_times(solve::Mode mode, const solve::SolveRun& run, RunResult& result
   result.wall_s = run.total_s;
   result.cpu_s = run.cpu_s;
   result.peak_rss_mib = run.peak_rss_mib;
+  result.peak_growth_mib = run.peak_growth_mib;
   if (mode == solve::Mode::kBatch) {
     result.init_s = run.init_s;
     result.stages = {stage_times(Stage::kPreprocess, std::vector{run.init_s}),
@@ -152,7 +155,7 @@ void score_trace(const std::vector<solve::Checkpoint>& checkpoints, RunResult& r
   for (const solve::Checkpoint& checkpoint : checkpoints) {
     newest_gap_m = std::max(newest_gap_m, checkpoint.newest_gap_m);
     // Before the first closure every edge fits.
-    if (checkpoint.chi2_optimum > solve::kMinTracedChi2) {
+    if (checkpoint.chi2_optimum > results::kExactFit_chi2) {
       gaps.push_back(checkpoint.chi2 / checkpoint.chi2_optimum - 1);
     }
   }

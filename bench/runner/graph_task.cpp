@@ -92,4 +92,9 @@ std::optional<std::string> why_unfit(const GraphTask& task, bool is_of_system) {
   return std::nullopt;
 }
 
+std::optional<std::string> why_unfit(const GraphTask& task, const BackEndInfo& back_end) {
+  if (task.options.mode != solve::Mode::kBatch || !back_end.forgets) return std::nullopt;
+  return fmt::format("asks for all poses at once, and {} forgets old ones", back_end.name);
+}
+
 }  // namespace corridor::runner

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/runner/back_ends.hpp"
 #include "bench/solve/false_closures.hpp"
 #include "bench/solve/solve_graph.hpp"
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
@@ -109,5 +110,7 @@ GraphTask task_of(const GraphIncrementalParams& params);
 // What the task asks for that such a graph does not have: a pose graph no calls, the graph of a
 // system neither poses that come one by one nor closures and starts like those of pose graphs.
 std::optional<std::string> why_unfit(const GraphTask& task, bool is_of_system);
+// A back-end that forgets poses has nothing to compare where all are asked for at once.
+std::optional<std::string> why_unfit(const GraphTask& task, const BackEndInfo& back_end);
 
 }  // namespace corridor::runner

@@ -192,6 +192,11 @@ class Planner {
       return;
     }
     for (const std::string& backend : backends) {
+      if (const auto reason = why_unfit_for(*info, choice, backend)) {
+        skip(fmt::format("{}@{} with {}: skipped: {}", choice.system, choice.profile, backend,
+                         *reason));
+        continue;
+      }
       spec.backend = backend;
       spec.overrides = overrides_of_case(suite_, choice.system, spec.backend);
       plan_.cases.push_back(spec);
@@ -211,10 +216,24 @@ class Planner {
   [[nodiscard]] std::optional<std::string> why_unfit_here(const SystemInfo& info,
                                                           const SystemChoice& choice,
                                                           const DataItem& item) const {
-    if (!info.takes_graphs()) return std::nullopt;
-    const Result<GraphTask> task =
-        info.graph_task(choice.profile, overrides_of_case(suite_, choice.system, std::nullopt));
+    const std::optional<GraphTask> task = graph_task_of(info, choice);
     return task ? why_unfit(*task, is_graph_of(item.source)) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<std::string> why_unfit_for(const SystemInfo& info,
+                                                         const SystemChoice& choice,
+                                                         const std::string& backend) const {
+    const std::optional<GraphTask> task = graph_task_of(info, choice);
+    const std::optional<BackEndInfo> known = find_back_end(backend);
+    return task && known ? why_unfit(*task, *known) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<GraphTask> graph_task_of(const SystemInfo& info,
+                                                       const SystemChoice& choice) const {
+    if (!info.takes_graphs()) return std::nullopt;
+    Result<GraphTask> task =
+        info.graph_task(choice.profile, overrides_of_case(suite_, choice.system, std::nullopt));
+    return task ? std::optional(std::move(*task)) : std::nullopt;
   }
 
   // Once, though every seed and profile meets it again.

@@ -1,8 +1,10 @@
 #include "bench/runner/process_clock.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <fstream>
 #include <limits>
@@ -27,14 +29,32 @@ double process_cpu_s() {
   return static_cast<double>(now.tv_sec) + kNanoseconds * static_cast<double>(now.tv_nsec);
 }
 
-void reset_peak_rss() {
+void Stopwatch::start() {
+  start_ = std::chrono::steady_clock::now();
+  cpu_at_start_s_ = process_cpu_s();
+}
+
+void Stopwatch::stop() {
+  wall_s_ += seconds_since(start_);
+  cpu_s_ += process_cpu_s() - cpu_at_start_s_;
+}
+
+MemoryWatch::MemoryWatch() {
+  malloc_trim(0);
   // proc(5): writing 5 sets VmHWM to the present size.
   std::ofstream("/proc/self/clear_refs") << "5";
+  at_start_mib_ = resident_mib(getpid());
+}
+
+std::optional<double> MemoryWatch::growth_mib() const {
+  const std::optional<double> peak = peak_mib();
+  if (!peak || !at_start_mib_) return std::nullopt;
+  return std::max(*peak - *at_start_mib_, 0.0);
 }
 
 // VmHWM belongs to the address space. getrusage()'s ru_maxrss would not do: it survives exec() and
 // shows the parent's size of the moment of the fork.
-std::optional<double> peak_rss_mib() {
+std::optional<double> MemoryWatch::peak_mib() const {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     double size_kib = 0;

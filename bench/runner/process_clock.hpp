@@ -14,10 +14,32 @@ double seconds_since(std::chrono::steady_clock::time_point start);
 // Processor time of all threads of this process so far [s].
 double process_cpu_s();
 
-// Starts the measurement of the peak anew, where the kernel allows it.
-void reset_peak_rss();
-// Largest resident memory of this process since it started or since the reset [MiB].
-std::optional<double> peak_rss_mib();
+// Wall and processor time of this process, while it runs.
+class Stopwatch {
+ public:
+  void start();  // requires that it does not run
+  void stop();   // requires that it runs
+  [[nodiscard]] double wall_s() const { return wall_s_; }
+  [[nodiscard]] double cpu_s() const { return cpu_s_; }
+
+ private:
+  std::chrono::steady_clock::time_point start_;
+  double cpu_at_start_s_ = 0;
+  double wall_s_ = 0, cpu_s_ = 0;
+};
+
+// The largest resident memory of this process from the making on, where the kernel allows it to be
+// measured.
+class MemoryWatch {
+ public:
+  // Gives memory that is free back to the kernel first, so that all that is taken counts.
+  MemoryWatch();
+  [[nodiscard]] std::optional<double> peak_mib() const;
+  [[nodiscard]] std::optional<double> growth_mib() const;  // of the peak, beyond what there was
+
+ private:
+  std::optional<double> at_start_mib_;
+};
 
 // Resident memory of another process now [MiB]; nullopt if it is gone.
 std::optional<double> resident_mib(pid_t process);

@@ -35,8 +35,9 @@ struct GraphCase {
   catalog::LoadedGraph data;
   std::optional<solve::Recording> recording;  // what `data` is the pose graph of
   GraphTask task;
-  std::optional<double> best_chi2;
+  std::optional<double> best_chi2;  // nothing: to be found when the run is done, from the next
   std::string best_chi2_source;
+  std::optional<formats::PoseGraph> own_graph = {};  // without noise on its start and false closures
 };
 
 // Data and task.
@@ -44,7 +45,10 @@ Result<GraphCase> load(const CaseSpec& spec, const catalog::DataDirs& dirs, Grap
   const Result<catalog::Catalog> known = catalog::known_datasets(dirs);
   if (!known) return tl::make_unexpected(known.error());
   const bool is_of_system = is_graph_of(spec.data_source);
-  if (const auto reason = why_unfit(task, is_of_system)) {
+  auto reason = why_unfit(task, is_of_system);
+  const auto back_end = find_back_end(spec.backend.value_or(""));
+  if (!reason && back_end) reason = why_unfit(task, *back_end);
+  if (reason) {
     return fail(ErrorCode::kInvalid, fmt::format("{}@{} {}", spec.system, spec.profile, *reason),
                 spec.dataset);
   }
@@ -104,7 +108,7 @@ void add_noise(const GraphTask& task, std::uint64_t seed, formats::PoseGraph& gr
   }
 }
 
-// Behind the graph's own edges, and after the optimum was found, which is without them.
+// Behind the graph's own edges.
 Result<void> plant_false_closures(std::uint64_t seed, GraphCase& graph_case) {
   const std::size_t num_own = graph_case.data.graph.edges.size();
   const GraphTask& task = graph_case.task;
@@ -116,9 +120,29 @@ Result<void> plant_false_closures(std::uint64_t seed, GraphCase& graph_case) {
   return {};
 }
 
-Result<solve::Optimum> optimum_of(const GraphCase& graph_case) {
-  if (graph_case.recording) return solve::optimum_of(*graph_case.recording);
-  return solve::optimum_of(graph_case.data.graph);
+void take_as_best(double chi2, GraphCase& graph_case) {
+  if (graph_case.best_chi2) return;
+  graph_case.best_chi2 = chi2;
+  graph_case.best_chi2_source = "own";
+}
+
+// After the run, which is not to find the memory that this leaves.
+Result<void> find_best_chi2(GraphCase& graph_case) {
+  if (graph_case.best_chi2) return {};
+  const Result<solve::Optimum> optimum = graph_case.recording
+                                             ? solve::optimum_of(*graph_case.recording)
+                                             : solve::optimum_of(*graph_case.own_graph);
+  if (!optimum) return tl::make_unexpected(optimum.error());
+  take_as_best(optimum->chi2, graph_case);
+  return {};
+}
+
+Result<void> start_at_optimum(GraphCase& graph_case) {
+  const Result<solve::Optimum> optimum = solve::optimum_of(graph_case.data.graph);
+  if (!optimum) return tl::make_unexpected(optimum.error());
+  put_at(optimum->values, graph_case.data.graph);
+  take_as_best(optimum->chi2, graph_case);
+  return {};
 }
 
 // Everything that is done before the clock runs.
@@ -129,15 +153,10 @@ Result<GraphCase> prepare(const CaseSpec& spec, const catalog::DataDirs& dirs) {
   if (!loaded) return loaded;
   GraphCase& made = *loaded;
   made.best_chi2 = made.data.best_chi2;
-  if (made.task.starts_at_optimum || !made.best_chi2) {
-    const Result<solve::Optimum> optimum = optimum_of(made);
-    if (!optimum) return tl::make_unexpected(optimum.error());
-    if (made.task.starts_at_optimum) put_at(optimum->values, made.data.graph);
-    if (!made.best_chi2) {
-      made.best_chi2 = optimum->chi2;
-      made.best_chi2_source = "own";
-    }
+  if (made.task.starts_at_optimum) {
+    if (const auto done = start_at_optimum(made); !done) return tl::make_unexpected(done.error());
   }
+  if (!made.best_chi2 && !made.recording) made.own_graph = made.data.graph;
   if (made.task.false_closures > 0) {
     if (const auto done = plant_false_closures(spec.system_seed, made); !done) {
       return tl::make_unexpected(done.error());
@@ -174,8 +193,8 @@ Poses final_poses(const GraphCase& graph_case, const solve::SolveRun& run,
 
 Poses online_poses(const solve::SolveRun& run) {
   Poses poses;
-  for (const solve::Update& update : run.updates) {
-    if (update.T_map_newest.is_finite()) poses.push_back({update.newest, update.T_map_newest});
+  for (const formats::PoseGraph::Vertex& read : run.online) {
+    if (read.T_map_base.is_finite()) poses.push_back(read);
   }
   std::sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return poses;
@@ -219,7 +238,7 @@ tl::expected<RunResult, CaseFailure> run_graph_case(const CaseSpec& spec,
                                                     const catalog::DataDirs& dirs,
                                                     const std::filesystem::path& out,
                                                     std::optional<int> jobs) {
-  const Result<GraphCase> graph_case = prepare(spec, dirs);
+  Result<GraphCase> graph_case = prepare(spec, dirs);
   if (!graph_case) return Failure(CaseFailure{graph_case.error()});
   const auto solver = make_solver(spec, graph_case->task.settings);
   if (!solver) return Failure(CaseFailure{solver.error()});
@@ -229,6 +248,8 @@ tl::expected<RunResult, CaseFailure> run_graph_case(const CaseSpec& spec,
   if (!run) return Failure(CaseFailure{run.error()});
   const Result<std::vector<solve::Checkpoint>> checkpoints = traced(spec, *graph_case, *run);
   if (!checkpoints) return Failure(CaseFailure{checkpoints.error()});
+  const Result<void> best = find_best_chi2(*graph_case);
+  if (!best) return Failure(CaseFailure{best.error()});
 
   RunResult result = record_of(spec, jobs);
   const Poses final = final_poses(*graph_case, *run, **solver);

@@ -41,16 +41,16 @@ class Tracer {
         num_checkpoints_(std::min(num_updates, num_checkpoints)),
         measure_(measure) {}
 
-  void take(const backend::BackEnd& back_end, const Update& update) {
+  void take(const Moment& moment) {
     const std::size_t index = num_seen_++;
     if (!is_checkpoint(index, num_updates_, num_checkpoints_)) return;
-    const graph::Values& estimate = back_end.estimate();
-    const double chi2 = chi2_of(back_end.graph(), estimate, measure_);
+    const graph::Values estimate = moment.estimate();
+    const double chi2 = chi2_of(moment.told, estimate, measure_);
     if (!std::isfinite(chi2)) return;
     std::vector<graph::Values> starts = {estimate};
     if (optimum_) starts.push_back(extended(optimum_->values, newest_, estimate));
-    optimum_ = optimum_near(back_end.graph(), starts, measure_);
-    newest_ = update.newest;
+    optimum_ = optimum_near(moment.told, starts, measure_);
+    newest_ = moment.update.newest;
     const Pose2 T_estimate_optimum = estimate.pose(newest_).between(optimum_->values.pose(newest_));
     checkpoints_.push_back({index, chi2, optimum_->chi2, T_estimate_optimum.translation_m().norm(),
                             std::abs(T_estimate_optimum.theta_rad())});
@@ -71,9 +71,7 @@ template <class Graph>
 Result<std::vector<Checkpoint>> trace(const Graph& graph, backend::BackEnd& back_end,
                                       const SolveOptions& options, Tracer tracer) {
   SolveOptions replay = options;
-  replay.after_update = [&](const backend::BackEnd& solver, const Update& update) {
-    tracer.take(solver, update);
-  };
+  replay.after_update = [&](const Moment& moment) { tracer.take(moment); };
   const Result<SolveRun> done = solve_graph(graph, back_end, replay);
   if (!done) return tl::make_unexpected(done.error());
   return std::move(tracer).checkpoints();

@@ -1,5 +1,6 @@
 // How far an incremental solution is from the batch optimum along its way: the whole run is done
-// again with the same back-end, and at a few checkpoints the graph so far is solved to its optimum.
+// again with the same back-end, and at a few checkpoints the graph so far is solved to its optimum:
+// all of it, whatever of it the back-end has forgotten. Checkpoints lie right after updates.
 // A final value alone would reward those who do their work at the end.
 #pragma once
 
@@ -9,10 +10,6 @@
 #include "bench/solve/solve_graph.hpp"
 
 namespace corridor::solve {
-
-// An optimum below this says only that no closure has come yet: every edge is met, and a ratio to
-// it says nothing.
-inline constexpr double kMinTracedChi2 = 1e-9;
 
 struct Checkpoint {
   std::size_t update_index = 0;

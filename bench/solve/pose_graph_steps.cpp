@@ -54,7 +54,7 @@ Result<Steps> pose_graph_steps(const Problem& problem, int poses_per_update) {
     } else {
       step.values.set_pose(pose, problem.graph.values.pose(pose));
     }
-    step.reading = {pose, k + 1};
+    step.reading = {pose, k + 1, step.call == Call::kUpdate};
     return step;
   };
   return Steps{num_poses, at};

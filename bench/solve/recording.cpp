@@ -97,7 +97,7 @@ class RecordingBackEnd final : public BackEnd {
   }
 
   void end_update() {
-    if (newest_pose_) recording_.steps.back().reading = {*newest_pose_, poses_.size()};
+    if (newest_pose_) recording_.steps.back().reading = {*newest_pose_, poses_.size(), true};
   }
 
   void number(const std::vector<FactorId>& ids) {

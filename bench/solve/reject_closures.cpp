@@ -1,7 +1,10 @@
 #include "bench/solve/reject_closures.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "bench/solve/replay.hpp"
 #include "slam/backend/robust/pairwise_consistency.hpp"
 #include "slam/core/chi_squared.hpp"
 #include "slam/core/expect.hpp"
@@ -65,13 +68,18 @@ Result<void> reject_before_solving(const SolveOptions& options, Problem& problem
   if (!found) return tl::make_unexpected(found.error());
   for (const FactorId id : found->rejected) problem.reject(id);
   run.rejected = std::move(found->rejected);
+  if (!found->is_proven) {
+    run.notes.push_back(fmt::format(
+        "a larger set of consistent closures may exist: the search ended after {} branches",
+        params.max_branches));
+  }
   return {};
 }
 
-bool reject_while_solving(const SolveOptions& options, Problem& problem, graph::Values& values,
-                          SolveRun& run) {
+std::string reject_while_solving(const SolveOptions& options, Problem& problem,
+                                 graph::Values& values, SolveRun& run) {
   const bool is_truncated = options.rejection == Rejection::kGnc;
-  if (!is_truncated && options.rejection != Rejection::kGncGemanMcClure) return true;
+  if (!is_truncated && options.rejection != Rejection::kGncGemanMcClure) return "";
   CORRIDOR_EXPECT(options.make_back_end);
   graph::FactorGraph factors = problem.graph.factors;
   for (const graph::NewFactor& prior : problem.priors) factors.add(prior);
@@ -86,7 +94,15 @@ bool reject_while_solving(const SolveOptions& options, Problem& problem, graph::
   run.num_iterations += found.num_iterations;
   run.rejected = std::move(found.rejected);
   values = std::move(found.values);
-  return found.status != backend::GncStatus::kMaxRounds;
+  switch (found.status) {
+    case backend::GncStatus::kConverged:
+      return "";
+    case backend::GncStatus::kMaxRounds:
+      return "the limit of rounds came before every closure was in or out";
+    case backend::GncStatus::kNotSolvable:
+      return "weights of closures are open: " + message_of(found.solution);
+  }
+  return "";
 }
 
 }  // namespace corridor::solve

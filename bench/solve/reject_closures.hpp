@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "bench/solve/optimum.hpp"
@@ -37,12 +38,13 @@ bool looks_for_false_closures(const SolveOptions& options);
 std::vector<graph::FactorId> beyond_bound(const Problem& problem, const graph::Values& values,
                                           double inlier_probability);
 
-// kPcm, which needs no values. The Error: an edge without covariance.
+// kPcm, which needs no values; a note if its search found no proof. The Error: an edge without
+// covariance.
 Result<void> reject_before_solving(const SolveOptions& options, Problem& problem, SolveRun& run);
 
-// kGnc: leaves the edges' weights as their kernels, and its solution in `values`. False if it was
-// stopped by its limit.
-bool reject_while_solving(const SolveOptions& options, Problem& problem, graph::Values& values,
-                          SolveRun& run);
+// kGnc: leaves the edges' weights as their kernels, and its solution in `values`. Why it did not
+// come to its end; empty if it did.
+std::string reject_while_solving(const SolveOptions& options, Problem& problem,
+                                 graph::Values& values, SolveRun& run);
 
 }  // namespace corridor::solve

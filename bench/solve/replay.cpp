@@ -1,6 +1,7 @@
 #include "bench/solve/replay.hpp"
 
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "bench/runner/process_clock.hpp"
@@ -10,25 +11,11 @@ namespace {
 
 using backend::BackEnd;
 using backend::BackEndReport;
+using backend::has_failed;
 using backend::SolveStatus;
 using graph::FactorId;
+using graph::NewFactor;
 using Clock = std::chrono::steady_clock;
-
-std::string message_of(const BackEndReport& report) {
-  switch (report.status) {
-    case SolveStatus::kRankDeficient:
-      return report.undetermined ? graph::to_text(*report.undetermined) + " is undetermined"
-                                 : "some pose is undetermined";
-    case SolveStatus::kNotFinite:
-      return "a residual or its derivative is not finite";
-    case SolveStatus::kMaxIterations:
-      return "the limit of iterations came before convergence";
-    case SolveStatus::kConverged:
-    case SolveStatus::kEmpty:
-      return "";
-  }
-  return "";
-}
 
 // The estimate of the pose before this one, or the edge to it, leads beyond all numbers.
 void lose(std::uint32_t pose, SolveRun& run) {
@@ -65,17 +52,18 @@ class Replay {
 
   Result<void> take(Step step) {
     const std::vector<FactorId> removed = numbers_of(step.removed);
+    if (options_.after_update) tell_witness(step);
     const Clock::time_point start = Clock::now();
     if (!place(back_end_, step, run_)) return {};
     const Result<BackEndReport> report = tell(step, removed);
     if (!report) return tl::make_unexpected(report.error());
-    Update update;
-    if (step.reading) {
-      const Pose2 T_map_newest = back_end_.pose(step.reading->pose);
-      update = {step.reading->pose, T_map_newest, step.reading->num_poses};
-    }
+    std::optional<Pose2> T_map_newest;
+    if (step.reading) T_map_newest = back_end_.pose(step.reading->pose);
     open_s_ += runner::seconds_since(start);
-    keep(*report, step.call, step.reading ? &update : nullptr);
+    keep(*report, step.call);
+    if (!step.reading) return {};
+    run_.online.push_back({step.reading->pose, *T_map_newest});
+    if (step.reading->ends_update) end_update(*report, *step.reading);
     return {};
   }
 
@@ -115,21 +103,31 @@ class Replay {
     return report;
   }
 
-  // With the clock stopped. `update`: this step ends one.
-  void keep(const BackEndReport& report, Call call, Update* update) {
+  // Factors by the numbers in which they came, which those of a graph that gives them again are
+  // not.
+  void tell_witness(const Step& step) {
+    for (const NewFactor& factor : step.factors) told_ids_.push_back(told_.add(factor));
+    for (const FactorId number : step.removed) told_.remove(told_ids_.at(number));
+  }
+
+  void keep(const BackEndReport& report, Call call) {
     numbers_.insert(numbers_.end(), report.new_factor_ids.begin(), report.new_factor_ids.end());
-    if (call == Call::kUpdate || call == Call::kSolve || call == Call::kConverge) {
-      count(report, run_);
-      num_open_relinearized_ += report.num_relinearized;
-      num_open_eliminated_ += report.num_eliminated;
-    }
-    if (update == nullptr) return;
-    update->num_relinearized = std::exchange(num_open_relinearized_, 0);
-    update->num_eliminated = std::exchange(num_open_eliminated_, 0);
-    update->num_factor_nonzeros = report.num_factor_nonzeros;
+    if (call != Call::kUpdate && call != Call::kSolve && call != Call::kConverge) return;
+    count(report, run_);
+    open_.num_relinearized += report.num_relinearized;
+    open_.num_eliminated += report.num_eliminated;
+  }
+
+  void end_update(const BackEndReport& report, const Step::Reading& reading) {
+    Update update = std::exchange(open_, {});
+    update.newest = reading.pose;
+    update.num_poses = reading.num_poses;
+    update.num_factor_nonzeros = report.num_factor_nonzeros;
     run_.updates_s.push_back(std::exchange(open_s_, 0));
-    run_.updates.push_back(*update);
-    if (options_.after_update) options_.after_update(back_end_, run_.updates.back());
+    run_.updates.push_back(update);
+    if (options_.after_update) {
+      options_.after_update({run_.updates.back(), back_end_, told_, run_.marginalized});
+    }
   }
 
   BackEnd& back_end_;
@@ -138,13 +136,34 @@ class Replay {
   std::vector<FactorId> numbers_;  // by the factors' order of coming
   // Of the steps since the last update.
   double open_s_ = 0;
-  std::int64_t num_open_relinearized_ = 0, num_open_eliminated_ = 0;
+  Update open_;
+  // For options_.after_update.
+  graph::FactorGraph told_;
+  std::vector<FactorId> told_ids_;
 };
 
 }  // namespace
 
-bool has_failed(SolveStatus status) {
-  return status == SolveStatus::kRankDeficient || status == SolveStatus::kNotFinite;
+std::string message_of(const BackEndReport& report) {
+  switch (report.status) {
+    case SolveStatus::kRankDeficient:
+      return report.undetermined ? graph::to_text(*report.undetermined) + " is undetermined"
+                                 : "some pose is undetermined";
+    case SolveStatus::kNotFinite:
+      return "a residual or its derivative is not finite";
+    case SolveStatus::kMaxIterations:
+      return "the limit of iterations came before convergence";
+    case SolveStatus::kConverged:
+    case SolveStatus::kEmpty:
+      return "";
+  }
+  return "";
+}
+
+graph::Values Moment::estimate() const {
+  graph::Values values = marginalized;
+  values.merge(back_end.estimate());
+  return values;
 }
 
 void count(const BackEndReport& report, SolveRun& run) {

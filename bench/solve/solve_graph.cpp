@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 #include <utility>
 
@@ -21,9 +20,9 @@ namespace corridor::solve {
 namespace {
 
 using backend::BackEnd;
+using backend::has_failed;
 using backend::SolveStatus;
 using graph::NewFactor;
-using Clock = std::chrono::steady_clock;
 
 // Factors on their way into a back-end are larger than in it: a million at a time would be what
 // decides about the peak of memory.
@@ -44,8 +43,7 @@ Result<Problem> problem_of(const formats::PoseGraph& graph, const SolveOptions& 
     problem.priors.emplace_back(std::move(prior));
   }
   const graph::FactorId end = problem.graph.factors.end_id();
-  const bool is_for_closures = options.kernel.kind == graph::KernelKind::kDcs;
-  problem.kernels.assign(end, is_for_closures ? graph::RobustKernel() : options.kernel);
+  problem.kernels.assign(end, {});
   if (!looks_for_false_closures(options)) return problem;
   auto closures = backend::loop_closures(problem.graph.factors, problem.graph.values, problem.held);
   if (!closures) return tl::make_unexpected(closures.error());
@@ -70,18 +68,7 @@ Result<graph::Values> initial_values(const Problem& problem, const graph::Factor
   return values;
 }
 
-Result<void> solve_batch(Problem& problem, BackEnd& back_end, const SolveOptions& options,
-                         SolveRun& run) {
-  const Clock::time_point start = Clock::now();
-  if (const auto done = reject_before_solving(options, problem, run); !done) return done;
-  Result<graph::Values> values = run.rejected
-                                     ? initial_values(problem, problem.kept(), options.init)
-                                     : initial_values(problem, problem.graph.factors, options.init);
-  if (!values) return tl::make_unexpected(values.error());
-  run.init_s = runner::seconds_since(start);
-  run.chi2_initial = problem.chi2(*values, options.num_planted);
-  const bool is_rejection_done = reject_while_solving(options, problem, *values, run);
-  back_end.add(problem.priors, *values);
+void add_edges(const Problem& problem, BackEnd& back_end) {
   const graph::FactorId end = problem.graph.factors.end_id();
   for (graph::FactorId first = 0; first < end; first += kFactorsPerCall) {
     std::vector<NewFactor> edges;
@@ -91,24 +78,42 @@ Result<void> solve_batch(Problem& problem, BackEnd& back_end, const SolveOptions
     }
     back_end.add(std::move(edges), {});
   }
+}
+
+Result<void> solve_batch(Problem& problem, BackEnd& back_end, const SolveOptions& options,
+                         runner::Stopwatch& clock, SolveRun& run) {
+  clock.start();
+  if (const auto done = reject_before_solving(options, problem, run); !done) return done;
+  Result<graph::Values> values = run.rejected
+                                     ? initial_values(problem, problem.kept(), options.init)
+                                     : initial_values(problem, problem.graph.factors, options.init);
+  if (!values) return tl::make_unexpected(values.error());
+  clock.stop();
+  run.init_s = clock.wall_s();
+  run.chi2_initial = problem.chi2(*values, options.num_planted);
+  clock.start();
+  const std::string why_open = reject_while_solving(options, problem, *values, run);
+  back_end.add(problem.priors, *values);
+  add_edges(problem, back_end);
   count(back_end.solve(), run);
-  run.total_s = runner::seconds_since(start);
-  if (!is_rejection_done && run.status == SolveStatus::kConverged) {
+  clock.stop();
+  if (!why_open.empty() && !has_failed(run.status)) {
     run.status = SolveStatus::kMaxIterations;
-    run.status_message = "the limit of rounds came before every closure was in or out";
+    run.status_message = why_open;
   }
   return {};
 }
 
 Result<void> solve_incrementally(const Problem& problem, const Recording* recording,
-                                 BackEnd& back_end, const SolveOptions& options, SolveRun& run) {
-  const Clock::time_point start = Clock::now();
+                                 BackEnd& back_end, const SolveOptions& options,
+                                 runner::Stopwatch& clock, SolveRun& run) {
+  clock.start();
   const Result<Steps> steps = recording != nullptr
                                   ? steps_of(*recording)
                                   : pose_graph_steps(problem, options.poses_per_update);
   if (!steps) return tl::make_unexpected(steps.error());
   auto done = replay(*steps, back_end, options, run);
-  run.total_s = runner::seconds_since(start);
+  clock.stop();
   return done;
 }
 
@@ -123,14 +128,17 @@ std::int64_t num_singular(const formats::PoseGraph& graph) {
 Result<SolveRun> solve(Problem& problem, const Recording* recording, BackEnd& back_end,
                        const SolveOptions& options) {
   SolveRun run;
-  runner::reset_peak_rss();
-  const double cpu_before_s = runner::process_cpu_s();
-  const Result<void> done = options.mode == Mode::kBatch
-                                ? solve_batch(problem, back_end, options, run)
-                                : solve_incrementally(problem, recording, back_end, options, run);
+  const runner::MemoryWatch memory;
+  runner::Stopwatch clock;
+  const Result<void> done =
+      options.mode == Mode::kBatch
+          ? solve_batch(problem, back_end, options, clock, run)
+          : solve_incrementally(problem, recording, back_end, options, clock, run);
   if (!done) return tl::make_unexpected(done.error());
-  run.cpu_s = runner::process_cpu_s() - cpu_before_s;
-  run.peak_rss_mib = runner::peak_rss_mib();
+  run.total_s = clock.wall_s();
+  run.cpu_s = clock.cpu_s();
+  run.peak_rss_mib = memory.peak_mib();
+  run.peak_growth_mib = memory.growth_mib();
   if (options.mode == Mode::kIncremental && has_failed(run.status)) return run;
   graph::Values solution = run.marginalized;
   solution.merge(back_end.estimate());

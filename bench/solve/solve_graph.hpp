@@ -44,15 +44,26 @@ inline constexpr std::array kRejections = {Rejection::kNone, Rejection::kGnc,
 // "none", "gnc", "gnc-geman-mcclure", "pcm".
 std::string_view to_text(Rejection rejection);
 
-// What one update did in kIncremental: the step of one pose, or the calls of a system up to one
-// that solves.
+// What one update did in kIncremental: the poses up to one at which the back-end is asked to solve,
+// or the calls of a system up to one that solves.
 struct Update {
-  std::uint32_t newest = 0;  // the pose, and where the estimate had it right after the update
-  Pose2 T_map_newest;
+  std::uint32_t newest = 0;   // the pose
   std::size_t num_poses = 0;  // so far
   std::int64_t num_relinearized = 0;
   std::int64_t num_eliminated = 0;
   std::int64_t num_factor_nonzeros = 0;  // 0: unknown
+};
+
+// Right after an update.
+struct Moment {
+  const Update& update;
+  const backend::BackEnd& back_end;
+  // All factors that came and were not removed, whatever of them the back-end has forgotten.
+  const graph::FactorGraph& told;
+  const graph::Values& marginalized;  // as they were then
+
+  // Of all variables that came.
+  [[nodiscard]] graph::Values estimate() const;
 };
 
 struct SolveOptions {
@@ -60,7 +71,7 @@ struct SolveOptions {
   Initialization init = Initialization::kFile;  // of kBatch
   int poses_per_update = 1;                     // of kIncremental: the last one always updates
   bool do_converge = false;                     // of kIncremental: after the last pose
-  // Of every edge; kDcs, as published, of the loop closures alone. Not together with a rejection.
+  // Of the loop closures alone: odometry is trusted, as rejections do. Not together with one.
   graph::RobustKernel kernel = {};
   Rejection rejection = Rejection::kNone;
   // Of a true closure to be below the bound of kGnc, and to count as such under a kernel; of two
@@ -69,15 +80,16 @@ struct SolveOptions {
   backend::MakeBackEnd make_back_end = {};  // for the weighted solutions of kGnc
   // The last so many edges are false closures that were planted: the chi2 of a run leaves them out.
   std::size_t num_planted = 0;
-  // Of kIncremental: called after every step, with the step's clock stopped. For replays: total_s,
-  // cpu_s and the memory have in them what it does.
-  std::function<void(const backend::BackEnd&, const Update&)> after_update = {};
+  // Of kIncremental: called after every update, with its clock stopped. For replays: total_s, cpu_s
+  // and the memory have in them what it does, and the factors that are kept for it.
+  std::function<void(const Moment&)> after_update = {};
 };
 
 struct SolveRun {
   // Of kIncremental: of the last update. The words are those of backend::to_text().
   backend::SolveStatus status = backend::SolveStatus::kEmpty;
-  std::string status_message;  // what the status does not say; empty for nothing
+  std::string status_message;      // what the status does not say; empty for nothing
+  std::vector<std::string> notes;  // what a reader should know of a solution that has come
   // Sums over all updates.
   std::int64_t num_iterations = 0;
   std::int64_t num_relinearized = 0;
@@ -103,9 +115,12 @@ struct SolveRun {
   std::optional<int> converge_rounds;
   double cpu_s = 0;
   std::optional<double> peak_rss_mib;
-  // Of kIncremental, both: what every update took, with reading the newest pose, and what it did.
+  std::optional<double> peak_growth_mib;  // of that, beyond what the process had before
+  // Of kIncremental, all three: what every update took, with reading the newest pose of each of its
+  // steps, what it did, and where every pose was read when it was the newest.
   std::vector<double> updates_s;
   std::vector<Update> updates;
+  std::vector<formats::PoseGraph::Vertex> online;
   graph::Values marginalized;  // variables that a recording takes out, as they were then
 };
 

@@ -18,10 +18,12 @@ namespace corridor::solve {
 enum class Call { kAdd, kUpdate, kSolve, kConverge, kSetValues, kMarginalize };
 
 struct Step {
-  // The newest pose, read when the step is done, and how many poses there are by then.
+  // The newest pose, read when the step is done, how many poses there are by then, and whether an
+  // update ends here: the steps since the one before are part of it.
   struct Reading {
     std::uint32_t pose = 0;
     std::size_t num_poses = 0;
+    bool ends_update = true;
   };
 
   Call call = Call::kUpdate;
@@ -33,7 +35,6 @@ struct Step {
   std::vector<graph::FactorId> removed;
   std::vector<graph::Key> marginalized;  // of kMarginalize
   backend::ConvergenceBudget budget;     // of kConverge
-  // Steps without are part of the next one that has it: together they are one update.
   std::optional<Reading> reading;
 };
 

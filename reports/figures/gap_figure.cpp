@@ -21,8 +21,6 @@ constexpr double kLeft_px = 76;
 constexpr double kGap_px = 90;
 constexpr double kTop_px = 40;
 constexpr double kBottom_px = 50;
-// An optimum below this has no closure in it: every edge is met.
-constexpr double kMinOptimum = 1e-9;
 // Smaller gaps are drawn at this height: nothing that anybody needs, and a logarithm needs a floor.
 constexpr double kMinGap_ratio = 1e-9;
 constexpr double kMinGap_m = 1e-7;
@@ -40,7 +38,7 @@ void add_points(const std::vector<reports::UpdateRow>& rows, Curve& chi2, Curve&
     if (!row.checkpoint) continue;
     const reports::Checkpoint& at = *row.checkpoint;
     newest.points.emplace_back(row.num_poses, std::max(at.newest_gap_m, kMinGap_m));
-    if (at.chi2_optimum < kMinOptimum) continue;
+    if (at.chi2_optimum <= results::kExactFit_chi2) continue;
     chi2.points.emplace_back(row.num_poses, std::max(at.chi2 / at.chi2_optimum - 1, kMinGap_ratio));
   }
 }

@@ -11,7 +11,6 @@
 #include <tuple>
 
 #include "bench/statistics/wilson.hpp"
-#include "datasets/formats/text.hpp"
 #include "reports/escape.hpp"
 #include "reports/false_closures.hpp"
 #include "reports/figures/curves.hpp"
@@ -24,6 +23,7 @@ namespace {
 
 using reports::Case;
 using reports::Cases;
+using reports::number_of;
 using results::RunResult;
 using Parameters = std::map<std::string, std::string>;
 
@@ -65,6 +65,7 @@ struct Point {
 
 struct Share {
   std::int64_t num_successes = 0, num_tried = 0;
+  bool is_drawn = false;  // otherwise the runs are one run, repeated
 };
 // Per graph, line and x.
 using Shares = std::map<std::string, std::map<Line, std::map<double, Share>>>;
@@ -72,11 +73,6 @@ using Shares = std::map<std::string, std::map<Line, std::map<double, Share>>>;
 struct Words {
   std::string id, title, description, caption;
 };
-
-double number_of(const RunResult& result, const std::string& name) {
-  const auto found = result.parameters.find(name);
-  return found == result.parameters.end() ? 0 : formats::parse_double(found->second).value_or(0);
-}
 
 // All parameters but those that a line or the axis stand for, and the code's revision.
 Parameters others_of(const RunResult& result, std::initializer_list<const char*> but) {
@@ -106,6 +102,7 @@ Shares shares_of(const Cases& cases, Point (*point_of)(const RunResult&),
     const Point point = point_of(entry.result);
     Share& share = shares[entry.result.dataset][point.line][point.x];
     ++share.num_tried;
+    share.is_drawn = share.is_drawn || reports::is_drawn(entry.result);
     share.num_successes += is_success(entry.result) ? 1 : 0;
   }
   return shares;
@@ -150,9 +147,10 @@ void add_points(const std::map<double, Share>& by_x, const Axis& x_axis, const A
   for (const auto& [x, share] : by_x) {
     const double at = x_axis.is_logarithmic ? x * std::pow(x_axis.high / x_axis.low, offset)
                                             : x + offset * (x_axis.high - x_axis.low);
-    const auto interval = statistics::wilson_interval(share.num_successes, share.num_tried);
     curve.points.emplace_back(
         at, up + static_cast<double>(share.num_successes) / static_cast<double>(share.num_tried));
+    if (!share.is_drawn) continue;
+    const auto interval = statistics::wilson_interval(share.num_successes, share.num_tried);
     curve.whiskers.emplace_back(at, up + interval->low, up + interval->high);
   }
   curve.marks = curve.points;
@@ -217,8 +215,8 @@ Figure panels(const Words& words, const Shares& shares, const Axis& x_axis) {
   draw_legend(svg, kLeft_px, num_rows * row_px + kLegendRow_px, legend);
   return {std::move(svg),
           fmt::format("{} Points are shares of {} runs, each with its own seed, whiskers their "
-                      "95 % intervals [Wilson1927]; lines are moved apart a little, for most of "
-                      "them lie at 0 or 1.",
+                      "95 % intervals [Wilson1927], where the seed draws anything; lines are moved "
+                      "apart a little, for most of them lie at 0 or 1.",
                       words.caption, runs_per_point(shares))};
 }
 

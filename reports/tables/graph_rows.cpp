@@ -7,6 +7,7 @@
 
 #include "bench/statistics/quantiles.hpp"
 #include "bench/statistics/wilson.hpp"
+#include "reports/graph_cases.hpp"
 
 namespace corridor::tables {
 namespace {
@@ -68,6 +69,11 @@ void add_share(const std::vector<const Case*>& tried, bool (*is_success)(const R
                     [is_success](const Case* entry) { return is_success(entry->result); });
   const auto num_tried = static_cast<std::int64_t>(tried.size());
   row.emplace_back(fmt::format("{}/{}", num_successes, num_tried));
+  if (std::none_of(tried.begin(), tried.end(),
+                   [](const Case* entry) { return reports::is_drawn(entry->result); })) {
+    row.emplace_back(Missing{"nothing drawn"});
+    return;
+  }
   const auto interval = statistics::wilson_interval(num_successes, num_tried);
   row.emplace_back(fmt::format("{:.2f} to {:.2f}", interval->low, interval->high));
 }

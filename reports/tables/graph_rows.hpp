@@ -22,7 +22,7 @@ void add_cells(const reports::Cases& cases, const std::string& dataset,
                const reports::Series& series, const std::vector<Metric>& metrics,
                std::vector<Cell>& row, const std::string& reason = "not measured");
 
-// "9/9", and for programs the share with the ends of its interval: two cells.
+// "9/9", and the interval of the share where seeds draw anything: two cells.
 void add_share(const std::vector<const reports::Case*>& tried,
                bool (*is_success)(const results::RunResult&), std::vector<Cell>& row);
 

@@ -103,7 +103,8 @@ Cell summarise(const Cases& cases, const std::string& dataset, const Series& ser
   estimate.n = static_cast<int>(values.size());
   estimate.of = of;
   estimate.decimals = decimals_for(metric, estimate.median);
-  if (estimate.n >= kMinValuesForInterval) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (estimate.n >= kMinValuesForInterval && *least < *most) {
     if (const auto interval = statistics::bootstrap_median(values)) {
       estimate.low = interval->low;
       estimate.high = interval->high;

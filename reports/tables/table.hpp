@@ -12,7 +12,7 @@ namespace corridor::tables {
 // A median with the 95 % bootstrap interval of the median.
 struct Estimate {
   double median = 0;
-  std::optional<double> low, high;  // absent where there are too few values for an interval
+  std::optional<double> low, high;  // absent where there are too few values, or all are the same
   int n = 0;                        // values behind it
   int of = 0;                       // values there could have been
   int decimals = 3;      // when written for people, below 0 rounded to tens; CSV has every digit

@@ -10,6 +10,10 @@ std::string to_text(SolveStatus status) {
   return kNames[static_cast<std::size_t>(status)];
 }
 
+bool has_failed(SolveStatus status) {
+  return status == SolveStatus::kRankDeficient || status == SolveStatus::kNotFinite;
+}
+
 bool is_small_decrement(double decrement, double cost, std::int64_t num_variables,
                         const ConvergenceBudget& budget) {
   // Sums of squares that cancel are known to about this share; a step of a hundred-millionth of a

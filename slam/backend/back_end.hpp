@@ -24,6 +24,8 @@ enum class SolveStatus {
   kEmpty,          // nothing to solve
 };
 std::string to_text(SolveStatus status);
+// kRankDeficient or kNotFinite: there is no solution.
+bool has_failed(SolveStatus status);
 
 // How far update_until_converged() goes. Counts and no clock: the same input has the same answer.
 struct ConvergenceBudget {
@@ -94,6 +96,8 @@ class BackEnd {
   // Overwrites the estimate of known variables, e.g. with a front end's own.
   virtual void set_values(const graph::Values& values) = 0;
 
+  // Reading any of these four changes no later update. After an update that failed, estimate() is
+  // as it was.
   [[nodiscard]] virtual const graph::Values& estimate() const = 0;
   // One pose of the estimate, for those who read the newest after every update: where a back-end
   // solves lazily, this costs no pass over all variables. Requires that the pose is known.

@@ -60,6 +60,23 @@ TEST(GraphCases, AreSolvedWithinAMillionthAtOnceAndWithinHalfAPerMillePoseByPose
   result = graph_result("fast", "a", 1, 0);
   result.chi2_gap_ratio.reset();
   EXPECT_FALSE(is_solved(result));
+  result.chi2 = 1e-7;
+  EXPECT_TRUE(is_solved(result)) << "where every measurement can be met there is no ratio";
+}
+
+TEST(BackEndTable, HasAnIntervalOfTheShareOnlyWhereSeedsDraw) {
+  std::vector<results::RunResult> repeats;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    repeats.push_back(graph_result("fast", "a", 1, 0, seed));
+    repeats.push_back(graph_result("slow", "a", 1, 0, seed));
+    repeats.back().parameters["start_heading_sigma_rad"] = "0.1";
+  }
+  const tables::Table table = tables::back_end_table(cases_of(repeats));
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(std::get<std::string>(table.rows[0][2]), "8/8");
+  EXPECT_TRUE(std::holds_alternative<tables::Missing>(table.rows[0][3])) << "one run, eight times";
+  EXPECT_EQ(std::get<std::string>(table.rows[1][3]), "0.68 to 1.00");
+  EXPECT_FALSE(std::get<tables::Estimate>(table.rows[0][5]).low) << "chi2 is the same every time";
 }
 
 TEST(BackEndTable, HasARowPerGraphAndBackEndWithTheWorstGapAndTheShareSolved) {

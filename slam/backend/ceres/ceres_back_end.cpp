@@ -204,6 +204,11 @@ CeresParams tuned_ceres_params() {
   CeresParams params;
   params.initial_trust_region_radius = 1e16;  // Ceres' own limit
   params.use_one_thread = true;
+  // Like our own solvers where solutions are compared to 1e-6: Ceres' own rules stop before that on
+  // graphs that fit almost exactly.
+  params.function_tolerance = 1e-9;
+  params.gradient_tolerance = params.parameter_tolerance = 0;
+  params.max_iterations = 100;
   return params;
 }
 

@@ -31,8 +31,8 @@ int BayesTree::add_variable(int dimension) {
   }
   const int variable = static_cast<int>(dimensions_.size());
   dimensions_.push_back(dimension);
-  first_rows_.push_back(static_cast<int>(deltas_.size()));
-  deltas_.resize(deltas_.size() + to_index(dimension), 0.0);
+  first_rows_.push_back(static_cast<int>(kept_.deltas.size()));
+  kept_.deltas.resize(kept_.deltas.size() + to_index(dimension), 0.0);
   clique_of_.push_back(kNone);
   rows_.push_back(kNone);
   changed_in_.push_back(0);
@@ -51,7 +51,7 @@ void BayesTree::forget(int variable) {
 }
 
 void BayesTree::clear_delta(int variable) {
-  std::fill_n(deltas_.begin() + first_rows_[to_index(variable)], dimension(variable), 0.0);
+  std::fill_n(kept_.deltas.begin() + first_rows_[to_index(variable)], dimension(variable), 0.0);
 }
 
 void BayesTree::touch_path(int number) {
@@ -108,15 +108,15 @@ std::span<const int> BayesTree::unsettled() {
   unsettled_.clear();
   if (num_unsettled_ == 0) return unsettled_;
   // Whatever is touched or unsettled, so are all above.
-  open_stack_ = roots_;
-  open_stack_.insert(open_stack_.end(), orphans_.begin(), orphans_.end());
-  while (!open_stack_.empty()) {
-    const int number = open_stack_.back();
-    open_stack_.pop_back();
+  kept_.cliques = roots_;
+  kept_.cliques.insert(kept_.cliques.end(), orphans_.begin(), orphans_.end());
+  while (!kept_.cliques.empty()) {
+    const int number = kept_.cliques.back();
+    kept_.cliques.pop_back();
     if (!at(number).is_unsettled && !at(number).is_touched) continue;
     if (!at(number).is_touched) unsettled_.push_back(number);
     for (int child = at(number).first_child; child != kNone; child = at(child).next_sibling) {
-      open_stack_.push_back(child);
+      kept_.cliques.push_back(child);
     }
   }
   std::reverse(unsettled_.begin(), unsettled_.end());
@@ -212,7 +212,7 @@ int BayesTree::make_clique(const linear::Supernode& node) {
     clique.variables.push_back(order_.variable_at(place));
     num_below += dimension(clique.variables.back());
   }
-  clique.is_solved = clique.are_children_due = false;
+  clique.is_solved = false;
   clique.birth = ++num_births_;
   clique.memory = memory_.take(Front::memory_size(num_pivots, num_below));
   clique.front = Front(clique.memory, num_pivots, num_below);

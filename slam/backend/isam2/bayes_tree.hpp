@@ -34,9 +34,8 @@ class BayesTree {
     int num_frontals = 0;
     int parent = kNone, first_child = kNone, next_sibling = kNone;
     bool is_touched = false;
-    bool is_unsettled = false;      // its numbers are of no use any more
-    bool is_solved = false;         // since it was eliminated
-    bool are_children_due = false;  // solved without its children
+    bool is_unsettled = false;  // its numbers are of no use any more
+    bool is_solved = false;     // since it was eliminated
     // Numbers never given twice: of its making, and of its last elimination.
     std::int64_t birth = 0, elimination = 0;
     double* memory = nullptr;
@@ -50,6 +49,12 @@ class BayesTree {
     }
   };
   static constexpr int kNone = -1;
+
+  // Steps of all variables one after the other, see delta_in(), and memory that finding them takes.
+  struct Solution {
+    std::vector<double> deltas, below, z;
+    std::vector<int> cliques;
+  };
 
   // Its number. It waits for the next detach().
   int add_variable(int dimension);
@@ -100,17 +105,22 @@ class BayesTree {
   void solve_changed(double threshold);
   // Every clique, exactly.
   void solve_all();
-  // The cliques from the root to the one that eliminates the variable, exactly.
-  void solve_path(int variable);
-  // Variables that any of the three gave another delta since forget_changes(), each once.
+  // Variables that either gave another delta since forget_changes(), each once.
   [[nodiscard]] std::span<const int> changed() const { return changed_; }
   void forget_changes();
 
+  [[nodiscard]] const Solution& solution() const { return kept_; }
   // The step of a variable from its linearisation point, dimension() numbers.
-  [[nodiscard]] const double* delta(int variable) const {
-    return deltas_.data() + first_rows_[static_cast<std::size_t>(variable)];
-  }
+  [[nodiscard]] const double* delta(int variable) const { return delta_in(kept_, variable); }
   void clear_delta(int variable);
+  // Exact steps, which the tree does not keep: later updates go as if nobody had read them. Of
+  // every variable, those outside the tree as they are; or of those that the cliques from the root
+  // to the variable's eliminate.
+  void read_all(Solution& solution) const;
+  void read_path(int variable, Solution& solution) const;
+  [[nodiscard]] const double* delta_in(const Solution& solution, int variable) const {
+    return solution.deltas.data() + first_rows_[static_cast<std::size_t>(variable)];
+  }
   [[nodiscard]] int dimension(int variable) const {
     return dimensions_[static_cast<std::size_t>(variable)];
   }
@@ -144,7 +154,9 @@ class BayesTree {
   void hang(int child, int parent);
   void find_runs(const Clique& child, const Front& front);
   void drop(int clique);
-  void solve(Clique& clique, double threshold, bool& is_changed);
+  void find_z(const Clique& clique, Solution& solution) const;
+  void substitute_back(const Clique& clique, Solution& solution) const;
+  bool solve(Clique& clique, double threshold);
   Eigen::MatrixXd joint_covariance(const Clique& clique, const Eigen::MatrixXd& of_separator) const;
 
   std::int64_t num_nonzeros_ = 0;
@@ -153,19 +165,18 @@ class BayesTree {
   std::vector<int> free_variables_;
   std::vector<int> changed_in_;  // number of the pass that last gave it another delta
   std::vector<bool> is_listed_;  // among changed_
-  std::vector<double> deltas_;
+  Solution kept_;
   // By clique.
   std::vector<Clique> cliques_;
   std::vector<int> free_cliques_, roots_;
   FrontMemory memory_;
   // Of the update under way.
-  std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_, open_stack_;
+  std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_;
   std::vector<int> unsettled_, holders_;
   std::vector<std::size_t> detached_factors_;
   VariableSets sets_;
   EliminationOrder order_;
   std::vector<RowRun> runs_;
-  std::vector<double> below_, z_;
   int open_ = kNone, first_bad_variable_ = kNone, pass_ = 0, num_unsettled_ = 0;
   std::int64_t num_births_ = 0, num_eliminations_ = 0;
 };

@@ -2,6 +2,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "slam/backend/isam2/bayes_tree.hpp"
 #include "slam/core/expect.hpp"
@@ -15,60 +16,76 @@ using Column = Eigen::Map<const Eigen::VectorXd>;
 
 }  // namespace
 
-// x_f = L11^-T (y - L21^T x_s). is_changed: false if z = y - L21^T x_s is within `threshold` of
-// what it was at the last solution, so that nothing was done.
-void BayesTree::solve(Clique& clique, double threshold, bool& is_changed) {
-  Front& front = clique.front;
+// z = y - L21^T x_s, with x_s from `solution`.
+void BayesTree::find_z(const Clique& clique, Solution& solution) const {
+  const Front& front = clique.front;
   const int num_pivots = front.num_pivots(), num_below = front.num_below();
-  below_.clear();
+  solution.below.clear();
   for (const int variable : clique.separator()) {
-    const double* const from = delta(variable);
-    below_.insert(below_.end(), from, from + dimension(variable));
+    const double* const from = delta_in(solution, variable);
+    solution.below.insert(solution.below.end(), from, from + dimension(variable));
   }
-  z_.resize(to_index(num_pivots));
-  const Column below(below_.data(), num_below);
-  bool is_far = false;
+  solution.z.resize(to_index(num_pivots));
+  const Column below(solution.below.data(), num_below);
   for (int k = 0; k < num_pivots; ++k) {
     const double* const column = front.pivot_column(k);
-    z_[to_index(k)] = column[front.last_row()] - Column(column + num_pivots, num_below).dot(below);
-    // Also if either is not a number.
-    is_far = is_far || !(std::abs(z_[to_index(k)] - front.kept_z()[k]) <= threshold);
+    solution.z[to_index(k)] =
+        column[front.last_row()] - Column(column + num_pivots, num_below).dot(below);
   }
-  is_changed = !clique.is_solved || is_far;
-  if (!is_changed) return;
-  clique.is_solved = true;
-  std::copy(z_.begin(), z_.end(), front.kept_z());
+}
+
+// x_f = L11^-T z, into `solution`.
+void BayesTree::substitute_back(const Clique& clique, Solution& solution) const {
+  const int num_pivots = clique.front.num_pivots();
+  std::vector<double>& z = solution.z;
   for (int k = num_pivots; k-- > 0;) {
-    const double* const column = front.pivot_column(k);
-    double sum = z_[to_index(k)];
-    for (int r = k + 1; r < num_pivots; ++r) sum -= column[r] * z_[to_index(r)];
-    z_[to_index(k)] = sum * column[k];
+    const double* const column = clique.front.pivot_column(k);
+    double sum = z[to_index(k)];
+    for (int r = k + 1; r < num_pivots; ++r) sum -= column[r] * z[to_index(r)];
+    z[to_index(k)] = sum * column[k];
   }
-  const double* from = z_.data();
+  const double* from = z.data();
   for (const int variable : clique.frontals()) {
-    std::copy_n(from, dimension(variable), deltas_.data() + first_rows_[to_index(variable)]);
+    std::copy_n(from, dimension(variable),
+                solution.deltas.data() + first_rows_[to_index(variable)]);
     from += dimension(variable);
+  }
+}
+
+// False, and nothing done, if z is within `threshold` of what it was at the last solution.
+bool BayesTree::solve(Clique& clique, double threshold) {
+  find_z(clique, kept_);
+  double* const kept_z = clique.front.kept_z();
+  const auto is_far = [&](double z, double kept) {
+    return !(std::abs(z - kept) <= threshold);  // also if either is not a number
+  };
+  if (clique.is_solved && std::equal(kept_.z.begin(), kept_.z.end(), kept_z, std::not_fn(is_far))) {
+    return false;
+  }
+  clique.is_solved = true;
+  std::copy(kept_.z.begin(), kept_.z.end(), kept_z);
+  substitute_back(clique, kept_);
+  for (const int variable : clique.frontals()) {
     changed_in_[to_index(variable)] = pass_;
     if (!is_listed_[to_index(variable)]) changed_.push_back(variable);
     is_listed_[to_index(variable)] = true;
   }
+  return true;
 }
 
 void BayesTree::solve_changed(double threshold) {
   ++pass_;
-  open_stack_ = roots_;
-  while (!open_stack_.empty()) {
-    Clique& clique = at(open_stack_.back());
-    open_stack_.pop_back();
+  kept_.cliques = roots_;
+  while (!kept_.cliques.empty()) {
+    Clique& clique = at(kept_.cliques.back());
+    kept_.cliques.pop_back();
     const bool is_below_changed = std::ranges::any_of(
         clique.separator(), [&](int v) { return changed_in_[to_index(v)] == pass_; });
-    bool is_changed = false;
-    if (is_below_changed || !clique.is_solved || threshold < 0)
-      solve(clique, threshold, is_changed);
-    if (!is_changed && !is_below_changed && !clique.are_children_due) continue;
-    clique.are_children_due = false;
+    const bool is_due = is_below_changed || !clique.is_solved || threshold < 0;
+    const bool is_changed = is_due && solve(clique, threshold);
+    if (!is_changed && !is_below_changed) continue;
     for (int child = clique.first_child; child != kNone; child = at(child).next_sibling) {
-      open_stack_.push_back(child);
+      kept_.cliques.push_back(child);
     }
   }
 }
@@ -80,21 +97,32 @@ void BayesTree::forget_changes() {
 
 void BayesTree::solve_all() { solve_changed(-1); }
 
-void BayesTree::solve_path(int variable) {
-  open_stack_.clear();
-  for (int number = clique_of(variable); number != kNone; number = at(number).parent) {
-    open_stack_.push_back(number);
+void BayesTree::read_all(Solution& solution) const {
+  solution.deltas = kept_.deltas;
+  solution.cliques = roots_;
+  while (!solution.cliques.empty()) {
+    const Clique& above = clique(solution.cliques.back());
+    solution.cliques.pop_back();
+    find_z(above, solution);
+    substitute_back(above, solution);
+    for (int child = above.first_child; child != kNone; child = clique(child).next_sibling) {
+      solution.cliques.push_back(child);
+    }
   }
-  // What changes here, the next pass sees as changed in it.
-  ++pass_;
-  bool is_changed = false;
-  while (!open_stack_.empty()) {
-    Clique& clique = at(open_stack_.back());
-    open_stack_.pop_back();
-    solve(clique, -1, is_changed);
-    clique.are_children_due = true;
+}
+
+void BayesTree::read_path(int variable, Solution& solution) const {
+  solution.deltas.resize(kept_.deltas.size());
+  solution.cliques.clear();
+  for (int number = clique_of(variable); number != kNone; number = clique(number).parent) {
+    solution.cliques.push_back(number);
   }
-  --pass_;
+  while (!solution.cliques.empty()) {
+    const Clique& above = clique(solution.cliques.back());
+    solution.cliques.pop_back();
+    find_z(above, solution);
+    substitute_back(above, solution);
+  }
 }
 
 // Of the clique's variables in their order, from that of its separator: [Kaess2009] section 3,

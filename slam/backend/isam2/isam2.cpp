@@ -40,9 +40,9 @@ class Isam2 final : public BackEnd {
   std::vector<FactorId> add(std::vector<NewFactor> new_factors, const Values& new_values) override {
     for (const Key key : new_values.keys()) add_variable(key);
     linearization_.merge(new_values);
+    if (is_estimate_current_) estimate_.merge(new_values);
     std::vector<FactorId> ids;
     for (NewFactor& factor : new_factors) ids.push_back(add_factor(std::move(factor)));
-    is_estimate_current_ = false;
     return ids;
   }
 
@@ -60,7 +60,7 @@ class Isam2 final : public BackEnd {
         report.status = SolveStatus::kNotFinite;
         return finished(report);
       }
-      is_frozen_ = false;
+      is_frozen_ = is_estimate_current_ = false;
       tree_.solve_changed(params_.wildfire);
       mark_far_steps();
       ++report.num_iterations;
@@ -88,12 +88,9 @@ class Isam2 final : public BackEnd {
         break;
       }
     }
-    if (report.status == SolveStatus::kRankDeficient) return finished(report);
     report.chi2 = graph_.cost(estimate());
-    if (!std::isfinite(report.chi2)) {
-      report.status = SolveStatus::kNotFinite;
-      set_values(before_all);
-    }
+    if (!std::isfinite(report.chi2)) report.status = SolveStatus::kNotFinite;
+    if (has_failed(report.status)) set_values(before_all);
     return finished(report);
   }
 
@@ -101,7 +98,7 @@ class Isam2 final : public BackEnd {
     if (!is_frozen_) tree_.solve_all();
     for (const Key key : values.keys()) move_to_another_point(index_.of(key));
     linearization_.merge(values);
-    is_estimate_current_ = false;
+    if (is_estimate_current_) estimate_.merge(values);
   }
 
   Result<void> marginalize(std::span<const Key> named) override {
@@ -109,9 +106,7 @@ class Isam2 final : public BackEnd {
     const std::vector<Key> keys(unique.begin(), unique.end());
     std::set<FactorId> held;
     for (const Key key : keys) {
-      if (!index_.contains(key)) {
-        return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key), "marginalisation");
-      }
+      if (!index_.contains(key)) return unknown(key, "marginalisation");
       const auto& ids = factors_of_[to_index(index_.of(key))];
       held.insert(ids.begin(), ids.end());
     }
@@ -130,22 +125,18 @@ class Isam2 final : public BackEnd {
 
   const Values& estimate() const override {
     if (!is_estimate_current_) {
-      if (!is_frozen_) tree_.solve_all();
-      estimate_ = linearization_;
-      for (const Key key : linearization_.keys()) {
-        estimate_.retract(key, tree_.delta(index_.of(key)));
-      }
-      is_estimate_current_ = true;
+      if (!is_frozen_) tree_.read_all(read_);
+      gather(is_frozen_ ? tree_.solution() : read_);
     }
     return estimate_;
   }
 
   Pose2 pose(std::uint32_t index) override {
+    if (is_estimate_current_) return estimate_.pose(index);
     const int variable = index_.of(graph::pose_key(index));
-    if (tree_.clique_of(variable) != BayesTree::kNone && !is_frozen_) {
-      tree_.solve_path(variable);
-    }
-    const double* const delta = tree_.delta(variable);
+    const bool is_path_due = tree_.clique_of(variable) != BayesTree::kNone && !is_frozen_;
+    if (is_path_due) tree_.read_path(variable, read_);
+    const double* const delta = tree_.delta_in(is_path_due ? read_ : tree_.solution(), variable);
     return linearization_.pose(index).plus({delta[0], delta[1], delta[2]});
   }
 
@@ -153,10 +144,7 @@ class Isam2 final : public BackEnd {
   TreeSnapshot tree() const { return snapshot_of(tree_, index_.keys()); }
 
   Result<Eigen::MatrixXd> marginal_covariance(Key key) override {
-    if (!index_.contains(key)) {
-      return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key),
-                  "marginal covariance");
-    }
+    if (!index_.contains(key)) return unknown(key, "marginal covariance");
     BackEndReport report;
     if (!eliminate(report)) {
       const std::string where = report.undetermined
@@ -170,6 +158,9 @@ class Isam2 final : public BackEnd {
 
  private:
   static double square(double x) { return x * x; }
+  static tl::unexpected<Error> unknown(Key key, const char* task) {
+    return fail(ErrorCode::kNotFound, "no variable " + graph::to_text(key), task);
+  }
 
   void add_variable(Key key) {
     if (index_.contains(key)) {
@@ -224,7 +215,6 @@ class Isam2 final : public BackEnd {
       information_.forget(variable);
     }
     variables_of_.erase(id);
-    is_estimate_current_ = false;
   }
 
   void mark(int variable) {
@@ -246,9 +236,19 @@ class Isam2 final : public BackEnd {
     marked_.clear();
   }
 
+  void gather(const BayesTree::Solution& steps) const {
+    estimate_ = linearization_;
+    for (const Key key : linearization_.keys()) {
+      estimate_.retract(key, tree_.delta_in(steps, index_.of(key)));
+    }
+    is_estimate_current_ = true;
+  }
+
   // One Gauss-Newton step of all variables; false where there is none.
   bool take_full_step(BackEndReport& report) {
-    report.chi2 = graph_.cost(estimate());
+    if (!is_frozen_) tree_.solve_all();
+    gather(tree_.solution());
+    report.chi2 = graph_.cost(estimate_);
     if (!std::isfinite(report.chi2)) return false;
     for (const Key key : linearization_.keys()) mark(index_.of(key));
     relinearize(report);
@@ -352,7 +352,6 @@ class Isam2 final : public BackEnd {
     report.num_factor_nonzeros = tree_.num_nonzeros();
     report.num_cliques = static_cast<std::int64_t>(tree_.num_cliques());
     report.front_memory_bytes = static_cast<std::int64_t>(tree_.memory_capacity() * sizeof(double));
-    is_estimate_current_ = false;
     return std::move(report);
   }
 
@@ -361,7 +360,9 @@ class Isam2 final : public BackEnd {
   graph::FactorGraph graph_;
   Values linearization_;
   graph::VariableIndex index_;
-  mutable BayesTree tree_;  // reading solves what no one has asked for yet
+  BayesTree tree_;
+  // What was read of it: the tree itself solves only what an update moves far enough.
+  mutable BayesTree::Solution read_;
   mutable Values estimate_;
   mutable bool is_estimate_current_ = true;
   // The tree is ahead of the estimate, which stays what it was: something was moved or eliminated,

@@ -110,8 +110,7 @@ class Gnc {
     (void)back_end->add(std::move(factors), result_.values);
     result_.solution = back_end->solve();
     result_.num_iterations += result_.solution.num_iterations;
-    const SolveStatus status = result_.solution.status;
-    if (status == SolveStatus::kRankDeficient || status == SolveStatus::kNotFinite) return false;
+    if (has_failed(result_.solution.status)) return false;
     result_.values = back_end->estimate();
     return true;
   }

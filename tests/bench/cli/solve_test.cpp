@@ -26,7 +26,7 @@ TEST(Solve, AnswersWithTheKeysThatScriptsReadInBothModes) {
     const Json json = Json::parse(answer.out);
     for (const char* key : {"graph", "backend", "linear", "mode", "init", "poses", "edges",
                             "status", "status_message", "iterations", "chi2", "chi2_initial",
-                            "total_s", "cpu_s", "peak_rss_mib", "update_ms"}) {
+                            "total_s", "cpu_s", "peak_rss_mib", "peak_growth_mib", "update_ms"}) {
       EXPECT_TRUE(json.contains(key)) << key;
     }
     EXPECT_EQ(json["graph"], "t.g2o");

@@ -41,7 +41,7 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "data_kind iterations eliminated factor_nonzeros chi2_initial chi2_best chi2_best_source "
       "chi2_gap_ratio "
       "run_gap_p50_ratio run_gap_max_ratio run_newest_gap_max_m step_mean_us init_s "
-      "false_closures rejected_closures rejection_precision rejection_recall "
+      "false_closures rejected_closures rejection_precision rejection_recall peak_growth_mib "
       // beyond the contract's table
       "case_id suite data_source data_digest true_poses jobs notes parameters overrides build_id "
       "counters "

@@ -306,20 +306,30 @@ RC_GTEST_PROP(BayesTree, CovariancesAreTheBlocksOfTheDenseInverse, (std::uint64_
   }
 }
 
-RC_GTEST_PROP(BayesTree, APathSolvedAloneIsExactAndTheRestFollowsLater, (std::uint64_t seed)) {
+RC_GTEST_PROP(BayesTree, WhatIsReadIsExactAndChangesNothing, (std::uint64_t seed)) {
+  constexpr double kCoarse = 0.5;
   LinearProblem problem(seed);
+  const auto read_delta = [&](const BayesTree::Solution& read, int variable) {
+    const double* const from = problem.tree().delta_in(read, variable);
+    return Eigen::VectorXd(Eigen::VectorXd::Map(from, problem.tree().dimension(variable)));
+  };
+  BayesTree::Solution all, path;
   for (int step = 0; step < 30; ++step) {
     random_step(problem);
     RC_ASSERT(problem.eliminate());
+    problem.tree().solve_changed(kCoarse);
+    const Eigen::VectorXd kept = problem.deltas(), expected = problem.solution();
+    problem.tree().read_all(all);
     const int wanted = problem.random_variable();
-    problem.tree().solve_path(wanted);
-    const Eigen::VectorXd expected = problem.solution();
-    const int d = problem.tree().dimension(wanted);
-    RC_ASSERT((problem.deltas() - expected).segment(problem.row_of(wanted), d).norm() <=
-              kSameSolution * (1 + expected.norm()));
-    if (step % 3 != 0) continue;
-    problem.tree().solve_changed(0);
-    RC_ASSERT((problem.deltas() - expected).norm() <= kSameSolution * (1 + expected.norm()));
+    problem.tree().read_path(wanted, path);
+    RC_ASSERT(read_delta(path, wanted) == read_delta(all, wanted));
+    for (int v = 0; v < problem.num_variables(); ++v) {
+      const auto exact = expected.segment(problem.row_of(v), problem.tree().dimension(v));
+      RC_ASSERT((read_delta(all, v) - exact).norm() <= kSameSolution * (1 + expected.norm()));
+    }
+    RC_ASSERT(problem.deltas() == kept);
+    problem.tree().solve_changed(kCoarse);
+    RC_ASSERT(problem.deltas() == kept);
   }
 }
 
