@@ -56,10 +56,6 @@ class Isam2 final : public BackEnd {
     do {
       relinearize(report);
       if (!eliminate(report)) return finished(report);
-      if (!std::isfinite(tree_.chi2())) {
-        report.status = SolveStatus::kNotFinite;
-        return finished(report);
-      }
       is_frozen_ = is_estimate_current_ = false;
       tree_.solve_changed(params_.wildfire);
       mark_far_steps();
@@ -78,17 +74,17 @@ class Isam2 final : public BackEnd {
   BackEndReport update_until_converged(const ConvergenceBudget& budget) override {
     BackEndReport report;
     if (graph_.num_factors() == 0) return finished(report);
+    if (!is_frozen_) settle();
     const Values before_all = estimate();
-    report.chi2 = report.chi2_initial = graph_.cost(before_all);
+    if (is_frozen_) settle();
+    report.chi2 = report.chi2_initial = graph_.cost(estimate_);
     report.status = SolveStatus::kMaxIterations;
+    const auto num_variables = static_cast<std::int64_t>(linearization_.size());
     while (report.num_iterations < budget.max_rounds && take_full_step(report)) {
-      const auto num_variables = static_cast<std::int64_t>(linearization_.size());
-      if (is_small_decrement(report.decrement, report.chi2, num_variables, budget)) {
-        report.status = SolveStatus::kConverged;
-        break;
-      }
+      if (!is_small_decrement(report.decrement, report.chi2, num_variables, budget)) continue;
+      report.status = SolveStatus::kConverged;
+      break;
     }
-    report.chi2 = graph_.cost(estimate());
     if (!std::isfinite(report.chi2)) report.status = SolveStatus::kNotFinite;
     if (has_failed(report.status)) set_values(before_all);
     return finished(report);
@@ -229,8 +225,7 @@ class Isam2 final : public BackEnd {
       is_marked_[to_index(variable)] = false;
       linearization_.retract(index_.keys()[to_index(variable)], tree_.delta(variable));
       move_to_another_point(variable);
-      // All its factors are linearised now.
-      information_.begin_sum(variable);
+      information_.begin_sum(variable);  // all its factors are linearised now
     }
     report.num_relinearized += static_cast<std::int64_t>(marked_.size());
     marked_.clear();
@@ -244,17 +239,22 @@ class Isam2 final : public BackEnd {
     is_estimate_current_ = true;
   }
 
-  // One Gauss-Newton step of all variables; false where there is none.
-  bool take_full_step(BackEndReport& report) {
+  // The tree's own steps become those that are read; frozen ones stay what they are.
+  void settle() {
     if (!is_frozen_) tree_.solve_all();
     gather(tree_.solution());
-    report.chi2 = graph_.cost(estimate_);
+  }
+
+  // One Gauss-Newton step of all variables, from a settled tree to one; false where there is none.
+  bool take_full_step(BackEndReport& report) {
     if (!std::isfinite(report.chi2)) return false;
     for (const Key key : linearization_.keys()) mark(index_.of(key));
     relinearize(report);
     if (!eliminate(report)) return false;
-    is_frozen_ = is_estimate_current_ = false;
+    is_frozen_ = false;
     report.decrement = report.chi2 - tree_.chi2();
+    settle();
+    report.chi2 = graph_.cost(estimate_);
     ++report.num_iterations;
     return true;
   }
@@ -297,6 +297,8 @@ class Isam2 final : public BackEnd {
         is_good = eliminate_each(tree_.new_cliques(), report);
       }
     }
+    if (is_good && !std::isfinite(tree_.chi2())) report.status = SolveStatus::kNotFinite;
+    is_good = is_good && !has_failed(report.status);
     information_.end_sums(is_good);
     return is_good;
   }
@@ -361,12 +363,11 @@ class Isam2 final : public BackEnd {
   Values linearization_;
   graph::VariableIndex index_;
   BayesTree tree_;
-  // What was read of it: the tree itself solves only what an update moves far enough.
-  mutable BayesTree::Solution read_;
+  mutable BayesTree::Solution read_;  // exactly; the tree itself solves what moves far enough
   mutable Values estimate_;
   mutable bool is_estimate_current_ = true;
-  // The tree is ahead of the estimate, which stays what it was: something was moved or eliminated,
-  // and no update has come to its end since.
+  // The tree is ahead of the estimate: variables were moved or eliminated, and not all solved
+  // since.
   bool is_frozen_ = false;
   bool has_kernels_ = false;  // any factor so far
   // By variable.
