@@ -5,8 +5,8 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <CLI/Validators.hpp>
 
+#include "bench/cli/option_checks.hpp"
 #include "bench/runner/case_files.hpp"
 #include "bench/runner/case_spec.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -23,7 +23,7 @@ void RunCaseCommand::add_to(CLI::App& command) {
       ->type_name("DIR");
   command
       .add_option("--jobs", num_jobs, "Cases that run at a time on this machine, for the record")
-      ->check(CLI::Range(1, kMaxJobs));
+      ->check(whole_number_in(1, kMaxJobs));
   common.add_to(command);
 }
 

@@ -7,7 +7,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include <set>
 #include <utility>
 
+#include "bench/cli/option_checks.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/data_kind.hpp"
 #include "bench/runner/exit_code.hpp"
@@ -109,9 +109,9 @@ void RunCommand::add_to(CLI::App& command) {
   command.add_option("--out", out, "Folder of the results (default: reports/out/SUITE, from here)")
       ->type_name("DIR");
   command.add_option("--jobs", num_jobs, "Cases at a time (default: 1, for undisturbed times)")
-      ->check(CLI::Range(1, kMaxJobs));
+      ->check(whole_number_in(1, kMaxJobs));
   command.add_option("--seeds", num_seeds, "Number of seeds instead of the suite's")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_number_in(1, 100'000));
   command
       .add_option("--seed", first_seed,
                   "First seed instead of the suite's; those below 1000 are for development")
@@ -204,7 +204,7 @@ Result<ExitCode> RunCommand::run(const ReportWriter& write_report) const {
   if (plan->cases.empty()) {
     return fail(ErrorCode::kNotFound,
                 fmt::format("no case can be run: {}", fmt::join(plan->skipped, "; ")),
-                requested->name, "data that can be found; see --data-dir");
+                requested->name, "data that can be found (--data-dir) and that the systems take");
   }
   const Result<fs::path> program = this_program();
   if (!program) return tl::make_unexpected(program.error());

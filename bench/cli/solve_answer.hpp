@@ -10,9 +10,10 @@
 
 namespace corridor::cli {
 
-nlohmann::ordered_json to_json(const SolveCommand& command, const ParamValues& overrides,
-                               const formats::PoseGraph& graph, const solve::SolveOptions& options,
-                               const solve::SolveRun& run);
+// `parameters`: all that the back-end had; `overrides`: those of them that were set by hand.
+nlohmann::ordered_json to_json(const SolveCommand& command, const ParamValues& parameters,
+                               const ParamValues& overrides, const formats::PoseGraph& graph,
+                               const solve::SolveOptions& options, const solve::SolveRun& run);
 std::string to_text(const nlohmann::ordered_json& run);
 
 }  // namespace corridor::cli

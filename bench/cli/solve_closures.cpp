@@ -26,7 +26,7 @@ void add_rejection(std::size_t num_edges, const solve::SolveOptions& options,
                    const solve::SolveRun& run, nlohmann::ordered_json& json) {
   json["inlier_probability"] = run.rejected ? Json(options.inlier_probability) : Json();
   json["rejected_edges"] = run.rejected ? Json(run.rejected->size()) : Json();
-  json["false_closures"] = options.num_planted;
+  json["false_closures"] = options.num_planted > 0 ? Json(options.num_planted) : Json();
   solve::RejectionScore score;
   if (run.rejected) {
     score = solve::score_of(*run.rejected, num_edges - options.num_planted, num_edges);

@@ -1,6 +1,7 @@
 #include "bench/cli/solve_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -8,14 +9,12 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
+#include "bench/cli/option_checks.hpp"
 #include "bench/cli/solve_answer.hpp"
 #include "bench/cli/solve_closures.hpp"
 #include "bench/cli/solve_request.hpp"
@@ -28,14 +27,34 @@
 #include "datasets/formats/graphs/pose_graph_file.hpp"
 #include "slam/backend/fixed_lag/fixed_lag.hpp"
 #include "slam/core/enum_text.hpp"
+#include "slam/core/nearest_names.hpp"
 #include "slam/linear/make_linear_solver.hpp"
 
 namespace corridor::cli {
 namespace {
 
+// Of a window, or between solutions.
+constexpr int kMaxPoses = 1'000'000;
+
+// What is neither a name nor a graph's file by its suffix.
+Result<void> check_name(const std::string& graph, const catalog::Catalog& known) {
+  if (catalog::is_graph_name(graph, known) || known.find(graph) != nullptr) return {};
+  std::vector<std::string> names;
+  for (const catalog::CatalogEntry& entry : known.entries) {
+    if (entry.is_graph()) names.push_back(entry.name);
+  }
+  return fail(ErrorCode::kNotFound, "neither a graph of the catalogue nor a file of one", graph,
+              fmt::format("a name that ends in .g2o, .graph or .toro, or one of `data list`; the "
+                          "nearest names: {}",
+                          fmt::join(nearest_names(graph, names), ", ")));
+}
+
 Result<formats::PoseGraph> load(const SolveCommand& command) {
   const Result<catalog::Catalog> known = catalog::known_datasets(command.common.data_dirs());
   if (!known) return tl::make_unexpected(known.error());
+  if (const Result<void> named = check_name(command.graph, *known); !named) {
+    return tl::make_unexpected(named.error());
+  }
   auto loaded = catalog::load_graph(command.graph, command.common.data_dirs(), *known);
   if (!loaded) return tl::make_unexpected(loaded.error());
   if (const Result<void> good = check_tree_size(command, loaded->graph); !good) {
@@ -63,22 +82,6 @@ Result<void> write_solution(const SolveCommand& command, formats::PoseGraph grap
   return {};
 }
 
-// What is wrong with an option's value, as CLI11 asks; empty for nothing.
-std::string not_a_width(const std::string& text) {
-  double width = 0;
-  const char* end = text.data() + text.size();
-  const auto [parsed_to, error] = std::from_chars(text.data(), end, width);
-  const bool is_number = error == std::errc() && parsed_to == end && std::isfinite(width);
-  if (is_number && width > 0) return "";
-  return fmt::format(R"("{}" is no width; expected a finite number above 0)", text);
-}
-
-// A failed update leaves no estimate of the poses that were still to come.
-bool has_answer(const solve::SolveRun& run) {
-  return run.status != backend::SolveStatus::kRankDeficient &&
-         run.status != backend::SolveStatus::kNotFinite;
-}
-
 Result<void> write_files(const SolveCommand& command, const formats::PoseGraph& graph,
                          const solve::SolveRun& run, const graph::Values& solution,
                          std::size_t num_planted) {
@@ -103,7 +106,7 @@ void SolveCommand::add_to(CLI::App& command) {
                   "Factorisation of gauss-newton and levenberg (" +
                       backend::LeastSquaresParams().linear + ")")
       ->check(CLI::IsMember(texts_of(linear::kLinearSolvers)));
-  command.add_option("--mode", mode, "batch: all at once; incremental: pose by pose")
+  command.add_option("--mode", mode, "batch: all at once; incremental: pose by pose (batch)")
       ->check(CLI::IsMember({"batch", "incremental"}));
   command
       .add_option("--init", init,
@@ -116,18 +119,18 @@ void SolveCommand::add_to(CLI::App& command) {
                   "gnc, gnc-geman-mcclure, pcm")
       ->check(CLI::IsMember(solve::robust_methods()));
   command.add_option("--width", width, "Width of the kernel in standard deviations (1)")
-      ->check(not_a_width)
+      ->check(number_above_zero())
       ->type_name("K");
   command
       .add_option("--inlier-probability", inlier_probability,
                   "Of a true closure to be below the bound beyond which it is rejected (0.99)")
-      ->check(CLI::Range(0.5, 0.999999))
+      ->check(number_in(0.5, 0.999999))
       ->type_name("P");
   command.add_option("--rejected", rejected, "List of the rejected edges")->type_name("R.csv");
   command
       .add_option("--false-closures", false_closures,
                   "Plant false closures until they are this share of all closures")
-      ->check(CLI::Range(0.0, 0.95))
+      ->check(number_in(0, 0.95))
       ->type_name("SHARE");
   command.add_option("--false-pairs", false_pairs, "Which poses they join (random)")
       ->check(CLI::IsMember(texts_of(solve::kFalsePairs)));
@@ -135,17 +138,19 @@ void SolveCommand::add_to(CLI::App& command) {
   command
       .add_option("--every", every,
                   "Solve at every K-th pose of incremental; the others wait at their edges (1)")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number_in(1, kMaxPoses))
       ->type_name("K");
   command
       .add_option(
           "--lag", lag,
           fmt::format("Poses in the window of fixed-lag ({})", backend::FixedLagParams().lag))
+      ->check(whole_number_in(1, kMaxPoses))
       ->type_name("N");
   command.add_option("--set", overrides, "Parameter of the back-end; repeat")
       ->type_name("BACKEND.key=value");
-  command.add_flag("--converge", do_converge,
-                   "After the last pose of incremental, go on until the gradient is small");
+  command.add_flag(
+      "--converge", do_converge,
+      "After the last pose of incremental, go on until a step promises next to nothing");
   command.add_option("--out", out, "The graph with its poses solved")->type_name("S.g2o");
   command
       .add_option("--tree", tree,
@@ -176,30 +181,32 @@ Result<ExitCode> SolveCommand::run(const TreeDrawer& draw_tree) const {
     const auto planted = plant(*problem, *false_closures, pairs, seed.value_or("1"));
     if (!planted) return tl::make_unexpected(of_graph(*this, planted.error()));
     options.num_planted = *planted;
+    if (*planted == 0) problem->notes.emplace_back("the share is less than one false closure");
   }
   LastUpdate last_update;
   if (!tree.empty()) last_update.watch(options);
   const Result<solve::SolveRun> answer = solve::solve_graph(*problem, **solver, options);
   if (!answer) return tl::make_unexpected(of_graph(*this, answer.error()));
-  if (has_answer(*answer)) {
+  // A failed update leaves no estimate of the poses that were still to come.
+  const bool has_answer = !backend::has_failed(answer->status);
+  if (has_answer) {
     Result<void> written =
         write_files(*this, *problem, *answer, (*solver)->estimate(), options.num_planted);
     if (written && !tree.empty()) written = last_update.write(*this, *problem, draw_tree);
     if (!written) return tl::make_unexpected(written.error());
   }
-  const nlohmann::ordered_json json = to_json(*this, *set, *problem, options, *answer);
+  const auto parameters = runner::back_end_parameters(back_end, settings_of_solve(), *set);
+  const nlohmann::ordered_json json = to_json(*this, *parameters, *set, *problem, options, *answer);
   if (is_json) {
     std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   } else {
-    for (const std::string& note : problem->notes) common.say("note: " + note);
-    for (const std::string& note : answer->notes) common.say("note: " + note);
+    for (const auto& note : json["notes"]) common.say("note: " + note.get<std::string>());
     std::fputs(to_text(json).c_str(), stdout);
   }
   // An update promises no convergence.
   const bool is_limit_an_answer = is_incremental(*this) && !do_converge;
   const bool has_converged = answer->status == backend::SolveStatus::kConverged;
-  return has_converged || (is_limit_an_answer && has_answer(*answer)) ? runner::kExitDone
-                                                                      : runner::kExitNo;
+  return has_converged || (is_limit_an_answer && has_answer) ? runner::kExitDone : runner::kExitNo;
 }
 
 }  // namespace corridor::cli

@@ -29,7 +29,7 @@ Result<void> check_robust(const SolveCommand& command) {
   }
   if (command.width && (command.robust == "none" || is_rejection)) {
     return not_together("--width", "without a kernel there is no width",
-                        "--robust with a kernel with it");
+                        "--robust with the name of a kernel");
   }
   if (command.robust == "none" && (command.inlier_probability || !command.rejected.empty())) {
     return not_together(command.inlier_probability ? "--inlier-probability" : "--rejected",

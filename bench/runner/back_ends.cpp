@@ -20,29 +20,42 @@ using MadeBackEnd = Result<std::unique_ptr<BackEnd>>;
 struct Entry {
   BackEndInfo info;
   std::function<MadeBackEnd(const LeastSquaresParams& settings, const ParamValues& overrides)> make;
+  std::function<Result<ParamValues>(const LeastSquaresParams& settings,
+                                    const ParamValues& overrides)>
+      values;  // that make() takes
 };
 
 // params_of(settings) are its parameters where nothing is set by hand, make(params) makes it.
 template <class ParamsOf, class Make>
 Entry entry_of(std::string name, std::string description, ParamsOf params_of, Make make) {
   const std::vector<ParamRow> table = param_table(params_of(LeastSquaresParams()));
-  const auto make_with = [=](const LeastSquaresParams& settings,
-                             const ParamValues& overrides) -> MadeBackEnd {
+  const auto params_with = [=](const LeastSquaresParams& settings, const ParamValues& overrides) {
     const std::string where = "back-end " + name;
-    const auto params =
-        with_nearest_names(table, overrides, where, "one of `corridor-bench list backends --json`",
-                           [&](const ParamValues& known) {
-                             return with_overrides(params_of(settings), known, where);
-                           });
+    return with_nearest_names(table, overrides, where,
+                              "one of `corridor-bench list backends --json`",
+                              [&](const ParamValues& known) {
+                                return with_overrides(params_of(settings), known, where);
+                              });
+  };
+  const auto make_with = [=](const auto& settings, const auto& overrides) -> MadeBackEnd {
+    const auto params = params_with(settings, overrides);
     if (!params) return tl::make_unexpected(params.error());
     return make(*params);
   };
-  return {{name, std::move(description), table, false}, make_with};
+  const auto values = [=](const auto& settings, const auto& overrides) -> Result<ParamValues> {
+    const auto params = params_with(settings, overrides);
+    if (!params) return tl::make_unexpected(params.error());
+    return param_values(*params);
+  };
+  return {{name, std::move(description), table, false}, make_with, values};
 }
 
-Entry least_squares_entry(std::string name, std::string description, bool use_damping) {
-  const auto params_of = [use_damping](LeastSquaresParams settings) {
+// `linear`: nothing leaves it as the system that asks has it.
+Entry least_squares_entry(std::string name, std::string description, bool use_damping,
+                          const std::optional<std::string>& linear = std::nullopt) {
+  const auto params_of = [use_damping, linear](LeastSquaresParams settings) {
     settings.use_damping = use_damping;
+    settings.linear = linear.value_or(settings.linear);
     return settings;
   };
   return entry_of(std::move(name), std::move(description), params_of, backend::make_least_squares);
@@ -65,6 +78,8 @@ Entry fixed_lag_entry() {
 
 std::vector<Entry> entries() {
   return {least_squares_entry("gauss-newton", "batch Gauss-Newton on sparse Cholesky", false),
+          least_squares_entry("gauss-newton@cholmod", "the same on SuiteSparse CHOLMOD", false,
+                              "cholmod"),
           least_squares_entry("levenberg", "batch Levenberg-Marquardt on sparse Cholesky", true),
           own_entry("isam2", "incremental smoothing on the Bayes tree [Kaess2012]",
                     backend::Isam2Params(), backend::make_isam2),
@@ -103,6 +118,14 @@ Result<std::unique_ptr<BackEnd>> make_back_end(std::string_view name,
                                                const ParamValues& overrides) {
   for (const Entry& entry : entries()) {
     if (entry.info.name == name) return entry.make(settings, overrides);
+  }
+  return tl::make_unexpected(check_back_end(name).error());
+}
+
+Result<ParamValues> back_end_parameters(std::string_view name, const LeastSquaresParams& settings,
+                                        const ParamValues& overrides) {
+  for (const Entry& entry : entries()) {
+    if (entry.info.name == name) return entry.values(settings, overrides);
   }
   return tl::make_unexpected(check_back_end(name).error());
 }

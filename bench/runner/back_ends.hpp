@@ -36,4 +36,9 @@ Result<std::unique_ptr<backend::BackEnd>> make_back_end(std::string_view name,
                                                         const backend::LeastSquaresParams& settings,
                                                         const ParamValues& overrides = {});
 
+// All parameters that it has then, by name.
+Result<ParamValues> back_end_parameters(std::string_view name,
+                                        const backend::LeastSquaresParams& settings,
+                                        const ParamValues& overrides = {});
+
 }  // namespace corridor::runner

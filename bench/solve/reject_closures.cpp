@@ -88,9 +88,10 @@ std::string reject_while_solving(const SolveOptions& options, Problem& problem,
   const auto loss = is_truncated ? backend::GncLoss::kTruncated : backend::GncLoss::kGemanMcClure;
   backend::GncResult found = backend::graduated_non_convexity(factors, values, problem.closures,
                                                               loss, options.make_back_end, params);
-  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+  for (std::size_t k = 0; is_truncated && k < problem.closures.size(); ++k) {
     problem.kernels[problem.closures[k]] = backend::kernel_of_weight(found.weights[k]);
   }
+  for (const FactorId id : found.rejected) problem.reject(id);
   run.num_iterations += found.num_iterations;
   run.rejected = std::move(found.rejected);
   values = std::move(found.values);

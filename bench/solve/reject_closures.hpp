@@ -42,8 +42,9 @@ std::vector<graph::FactorId> beyond_bound(const Problem& problem, const graph::V
 // covariance.
 Result<void> reject_before_solving(const SolveOptions& options, Problem& problem, SolveRun& run);
 
-// kGnc: leaves the edges' weights as their kernels, and its solution in `values`. Why it did not
-// come to its end; empty if it did.
+// kGnc: leaves the edges' weights as their kernels, and its solution in `values`; the weights of
+// kGncGemanMcClure, which are never 0 or 1, only say which edges are rejected: the others count in
+// full. Why it did not come to its end; empty if it did.
 std::string reject_while_solving(const SolveOptions& options, Problem& problem,
                                  graph::Values& values, SolveRun& run);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "bench/solve/pose_graph_steps.hpp"
 #include "bench/solve/reject_closures.hpp"
 #include "bench/solve/replay.hpp"
+#include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
 #include "slam/backend/initialization/initialization.hpp"
 #include "slam/backend/initialization/spanning_order.hpp"
 #include "slam/backend/robust/loop_closures.hpp"
@@ -124,6 +126,29 @@ std::int64_t num_singular(const formats::PoseGraph& graph) {
   });
 }
 
+// A damped solver converges wherever it stands along a direction that no edge determines: ours,
+// which is not, is asked at the solution.
+void check_determined(const Problem& problem, const graph::Values& solution, SolveRun& run) {
+  backend::LeastSquaresParams params;
+  params.max_iterations = 1;
+  const auto solver = backend::make_least_squares(params);
+  solver->add(problem.priors, solution);
+  add_edges(problem, *solver);
+  const backend::BackEndReport report = solver->solve();
+  if (report.status != SolveStatus::kRankDeficient) return;
+  run.status = report.status;
+  run.status_message = message_of(report);
+}
+
+// Poses that come one by one have to be determined as they come.
+std::string expected_of(const SolveOptions& options, std::size_t num_poses, const SolveRun& run) {
+  if (options.mode == Mode::kBatch || run.online.size() >= num_poses) {
+    return "edges that determine every pose";
+  }
+  return fmt::format("edges that determine every pose when it comes (this is number {} of {})",
+                     run.online.size(), num_poses);
+}
+
 // `recording`: where the problem is from; null: a pose graph of a file.
 Result<SolveRun> solve(Problem& problem, const Recording* recording, BackEnd& back_end,
                        const SolveOptions& options) {
@@ -167,13 +192,15 @@ Result<SolveRun> solve_graph(const formats::PoseGraph& graph, BackEnd& back_end,
   if (!problem) return tl::make_unexpected(problem.error());
   Result<SolveRun> run = solve(*problem, nullptr, back_end, options);
   if (!run) return run;
-  if (run->status == SolveStatus::kRankDeficient) {
-    if (const std::int64_t singular = num_singular(graph); singular > 0) {
-      return fail(ErrorCode::kInvalid,
-                  fmt::format("{}: {} edges with singular information leave directions free",
-                              run->status_message, singular),
-                  "", "edges that determine every pose");
-    }
+  const std::int64_t singular = num_singular(graph);
+  if (singular > 0 && run->chi2 && std::isfinite(*run->chi2)) {
+    check_determined(*problem, back_end.estimate(), *run);
+  }
+  if (run->status == SolveStatus::kRankDeficient && singular > 0) {
+    return fail(ErrorCode::kInvalid,
+                fmt::format("{}: {} edges with singular information leave directions free",
+                            run->status_message, singular),
+                "", expected_of(options, graph.vertices.size(), *run));
   }
   if (run->chi2 && options.kernel.kind != graph::KernelKind::kNone) {
     run->rejected = beyond_bound(*problem, back_end.estimate(), options.inlier_probability);

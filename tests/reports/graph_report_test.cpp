@@ -101,16 +101,31 @@ TEST(BackEndRatioTable, DividesRepeatByRepeatByTheTimesOfCeresFromOdometry) {
   const tables::Table table = tables::back_end_ratio_table(cases_of(results));
   ASSERT_EQ(table.rows.size(), 3U) << "lost has no row";
   for (const auto& row : table.rows) {
-    EXPECT_TRUE(std::holds_alternative<tables::Missing>(row[3])) << "no ceres@tuned was run";
+    EXPECT_EQ(std::get<std::string>(row[2]), "odometry");
+    EXPECT_EQ(std::get<tables::Missing>(row[4]).reason, "reference not run");
     const std::string name = std::get<std::string>(row[1]);
     if (name.find("few") != std::string::npos) {
-      EXPECT_EQ(std::get<tables::Missing>(row[2]).reason, "fewer than 6 pairs");
+      EXPECT_EQ(std::get<tables::Missing>(row[3]).reason, "fewer than 6 pairs");
     } else {
       const double ratio = name.find("fast") != std::string::npos ? 0.25 : 1.0;
-      EXPECT_EQ(std::get<tables::Estimate>(row[2]).median, ratio);
-      EXPECT_EQ(std::get<tables::Estimate>(row[2]).n, 6);
+      EXPECT_EQ(std::get<tables::Estimate>(row[3]).median, ratio);
+      EXPECT_EQ(std::get<tables::Estimate>(row[3]).n, 6);
     }
   }
+}
+
+TEST(BackEndRatioTable, StartsTheReferenceWhereItSolvesTheGraph) {
+  std::vector<results::RunResult> results;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    results.push_back(graph_result("ceres", "hard", 1, 1, seed));
+    results.push_back(graph_result("ceres", "hard", 2, 1e-9, seed));
+    results.back().profile = "chordal";
+    results.back().case_id += "-chordal";
+  }
+  const tables::Table table = tables::back_end_ratio_table(cases_of(results));
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(std::get<std::string>(table.rows[0][2]), "chordal");
+  EXPECT_EQ(std::get<tables::Estimate>(table.rows[0][3]).median, 1.0);
 }
 
 TEST(ReportTables, KeepGraphsOutOfTheTablesOfLogsAndFailuresInTheirs) {

@@ -90,6 +90,63 @@ TEST(Solve, SaysWhichEdgesAFixedLagLeftOut) {
   EXPECT_LT(wide["chi2"], narrow["chi2"]);
 }
 
+TEST(Solve, RefusesNumbersThatAreNoneOrOutsideTheirRange) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string with = "solve t.g2o --backend isam2 ";
+  for (const std::string value : {"nan", "-nan", "inf", "1", "-0.1", "half"}) {
+    expect_refused(folder, with + "--false-closures " + value,
+                   {"--false-closures", "expected a number from 0 to 0.95"});
+    expect_refused(folder, with + "--robust dcs --inlier-probability " + value,
+                   {"--inlier-probability", "expected a number from 0.5 to 0.999999"});
+  }
+  for (const std::string value : {"0", "-5", "1.5", "abc", "3000000000"}) {
+    expect_refused(folder, with + "--mode incremental --every " + value,
+                   {"--every", "expected a whole number from 1 to 1000000"});
+  }
+}
+
+TEST(Solve, RefusesWhatNoEdgeDeterminesWithEveryBackEnd) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 0 0 1\n");
+  for (const std::string back_end : {"gauss-newton", "levenberg", "isam2", "ceres"}) {
+    for (const std::string mode : {"batch", "incremental"}) {
+      expect_refused(folder, "solve t.g2o --backend " + back_end + " --mode " + mode,
+                     {"pose 1 is undetermined", "1 edges with singular information"});
+    }
+  }
+}
+
+TEST(Solve, NamesTheNearestGraphOfTheCatalogue) {
+  const ScratchFolder folder;
+  expect_refused(folder, "solve m3500 --backend isam2", {"m3500", "nearest names: M3500"});
+}
+
+TEST(Solve, HasAllThatItWasAskedForInItsRecord) {
+  const ScratchFolder folder;
+  const Json json = Json::parse(run_program(folder,
+                                            "solve walk-200-s1 --backend gauss-newton --json "
+                                            "--false-closures 0.1 --false-pairs local --seed 7 "
+                                            "--set gauss-newton.max_iterations=50")
+                                    .out);
+  EXPECT_EQ(json["false_share"], 0.1);
+  EXPECT_EQ(json["false_pairs"], "local");
+  EXPECT_EQ(json["seed"], "7");
+  EXPECT_EQ(json["set"], Json({{"max_iterations", "50"}}));
+  EXPECT_EQ(json["parameters"]["max_iterations"], "50");
+  EXPECT_EQ(json["parameters"]["min_relative_decrease"], "1e-09");
+}
+
+TEST(Solve, AnUpdatePromisesNoConvergence) {
+  const ScratchFolder folder;
+  folder.write("t.g2o", kTriangle);
+  const std::string request = "solve t.g2o --backend gauss-newton --mode incremental --json";
+  const Answer answer = run_program(folder, request);
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(Json::parse(answer.out)["status"], "updated");
+  EXPECT_EQ(Json::parse(answer.out)["status_message"], "");
+}
+
 TEST(Solve, GoesOnUntilConvergedWhereAsked) {
   const ScratchFolder folder;
   folder.write("t.g2o", kTriangle);
@@ -138,7 +195,7 @@ TEST(Solve, RefusesWindowsAndConvergingWhereThereIsNone) {
   expect_refused(folder, "solve t.g2o --backend isam2 --mode incremental --lag 3",
                  {"--lag: isam2 forgets no pose; expected --backend fixed-lag with it"});
   expect_refused(folder, "solve t.g2o --backend fixed-lag --mode incremental --lag 0",
-                 {"back-end fixed-lag: lag = 0: expected 1 to"});
+                 {"--lag: '0' is no value for it; expected a whole number from 1"});
   expect_refused(folder, "solve t.g2o --backend isam2 --converge",
                  {"--converge: a batch solution goes on by itself"});
 }
@@ -175,8 +232,9 @@ TEST(Solve, RefusesRequestsThatMakeNoSense) {
   expect_refused(folder, with + "--every 3", {"--every", "--mode incremental"});
   expect_refused(folder, with + "--width 2", {"--width", "--robust"});
   for (const std::string width : {"0", "-1", "nan", "inf", "2x"}) {
-    expect_refused(folder, with + "--robust huber --width " + width,
-                   {"--width", "\"" + width + "\" is no width"});
+    expect_refused(
+        folder, with + "--robust huber --width " + width,
+        {"--width", "'" + width + "' is no value for it; expected a finite number above 0"});
   }
   expect_refused(folder, with + "--robust magic", {"--robust"});
   expect_refused(folder, with + "--robust gnc --mode incremental",
