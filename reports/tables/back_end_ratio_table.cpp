@@ -85,6 +85,10 @@ Table back_end_ratio_table(const Cases& cases) {
     std::array<Reference, kReferenceBackEnds.size()> references;
     std::transform(kReferenceBackEnds.begin(), kReferenceBackEnds.end(), references.begin(),
                    [&](const char* name) { return reference_of(cases, dataset, profile, name); });
+    if (std::none_of(references.begin(), references.end(),
+                     [](const Reference& reference) { return reference.was_run; })) {
+      continue;
+    }
     for (const Series& series : cases.series()) {
       const WorldValues times = solved_times(cases, dataset, series);
       if (times.empty()) continue;

@@ -114,6 +114,10 @@ TEST(BackEndRatioTable, DividesRepeatByRepeatByTheTimesOfCeresFromOdometry) {
   }
 }
 
+TEST(BackEndRatioTable, HasNoRowWhereNoReferenceWasRun) {
+  EXPECT_TRUE(tables::back_end_ratio_table(two_back_ends()).rows.empty());
+}
+
 TEST(BackEndRatioTable, StartsTheReferenceWhereItSolvesTheGraph) {
   std::vector<results::RunResult> results;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
