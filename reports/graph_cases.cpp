@@ -60,10 +60,9 @@ bool is_drawn(const results::RunResult& result) {
 bool is_pose_by_pose(const results::RunResult& result) { return result.step_max_us.has_value(); }
 
 bool is_solved(const results::RunResult& result) {
-  if (result.status != results::CaseStatus::kOk) return false;
-  if (!result.chi2_gap_ratio) return result.chi2 && *result.chi2 <= kSolvedExactFit_chi2;
+  if (result.status != results::CaseStatus::kOk || !result.chi2 || !result.chi2_best) return false;
   const double limit = is_pose_by_pose(result) ? kSolvedPoseByPose_ratio : kSolvedAtOnce_ratio;
-  return *result.chi2_gap_ratio <= limit;
+  return *result.chi2 <= *result.chi2_best * (1 + limit) + results::kExactFit_chi2;
 }
 
 Result<std::vector<UpdateRow>> read_updates(const std::filesystem::path& case_dir) {

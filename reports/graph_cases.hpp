@@ -14,12 +14,9 @@ namespace corridor::reports {
 
 // Solved is what ends within this of the best chi2 that is known; below it in any case. At once:
 // what solvers that agree on an optimum differ by. Pose by pose: nobody goes on until nothing
-// moves.
+// moves. To either results::kExactFit_chi2 is added: where the best is zero, no share of it helps.
 inline constexpr double kSolvedAtOnce_ratio = 1e-6;
 inline constexpr double kSolvedPoseByPose_ratio = 5e-4;
-// Where the best fits every measurement there is no ratio: solved is what is a thousandth of a
-// standard deviation away in all.
-inline constexpr double kSolvedExactFit_chi2 = 1e-6;
 
 // The value of a parameter; 0 where the record has none of that name.
 double number_of(const results::RunResult& result, const std::string& parameter);

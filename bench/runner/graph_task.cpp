@@ -66,6 +66,9 @@ GraphTask task_of(const GraphBatchParams& params) {
 GraphTask task_of(const GraphIncrementalParams& params) {
   GraphTask task;
   task.options.mode = solve::Mode::kIncremental;
+  // Of what a recording solves at once; as far as the other back-ends go.
+  task.settings.max_iterations = solve::kMaxBatchIterations;
+  task.settings.min_relative_decrease = solve::kMinBatchRelativeDecrease;
   task.options.poses_per_update = params.poses_per_update;
   task.num_checkpoints = params.num_checkpoints;
   task.use_calls = params.use_calls;

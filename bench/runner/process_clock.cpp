@@ -9,12 +9,24 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace corridor::runner {
 namespace {
 
 constexpr double kKibPerMib = 1024.0;
 constexpr double kBytesPerMib = 1024.0 * 1024.0;
+
+// A line of /proc/self/status.
+std::optional<double> status_mib(std::string_view key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double size_kib = 0;
+    if (word == key && status >> size_kib) return size_kib / kKibPerMib;
+    status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -42,27 +54,23 @@ void Stopwatch::stop() {
 MemoryWatch::MemoryWatch() {
   malloc_trim(0);
   // proc(5): writing 5 sets VmHWM to the present size.
-  std::ofstream("/proc/self/clear_refs") << "5";
+  std::ofstream reset("/proc/self/clear_refs");
+  reset << "5" << std::flush;
+  if (!reset) return;
   at_start_mib_ = resident_mib(getpid());
+  files_at_start_mib_ = status_mib("RssFile:");
 }
 
 std::optional<double> MemoryWatch::growth_mib() const {
   const std::optional<double> peak = peak_mib();
-  if (!peak || !at_start_mib_) return std::nullopt;
-  return std::max(*peak - *at_start_mib_, 0.0);
+  const std::optional<double> files = status_mib("RssFile:");
+  if (!peak || !files || !at_start_mib_ || !files_at_start_mib_) return std::nullopt;
+  return std::max(*peak - *at_start_mib_ - std::max(*files - *files_at_start_mib_, 0.0), 0.0);
 }
 
 // VmHWM belongs to the address space. getrusage()'s ru_maxrss would not do: it survives exec() and
 // shows the parent's size of the moment of the fork.
-std::optional<double> MemoryWatch::peak_mib() const {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double size_kib = 0;
-    if (word == "VmHWM:" && status >> size_kib) return size_kib / kKibPerMib;
-    status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-  }
-  return std::nullopt;
-}
+std::optional<double> MemoryWatch::peak_mib() const { return status_mib("VmHWM:"); }
 
 std::optional<double> resident_mib(pid_t process) {
   std::ifstream statm(fmt::format("/proc/{}/statm", process));

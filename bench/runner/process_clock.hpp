@@ -35,10 +35,12 @@ class MemoryWatch {
   // Gives memory that is free back to the kernel first, so that all that is taken counts.
   MemoryWatch();
   [[nodiscard]] std::optional<double> peak_mib() const;
-  [[nodiscard]] std::optional<double> growth_mib() const;  // of the peak, beyond what there was
+  // Of the peak, beyond what there was, without the pages of programs and libraries that came in.
+  [[nodiscard]] std::optional<double> growth_mib() const;
 
  private:
-  std::optional<double> at_start_mib_;
+  // Nothing where the kernel did not start its measurement anew.
+  std::optional<double> at_start_mib_, files_at_start_mib_;
 };
 
 // Resident memory of another process now [MiB]; nullopt if it is gone.

@@ -37,7 +37,8 @@ struct GraphCase {
   GraphTask task;
   std::optional<double> best_chi2;  // nothing: to be found when the run is done, from the next
   std::string best_chi2_source;
-  std::optional<formats::PoseGraph> own_graph = {};  // without noise on its start and false closures
+  std::optional<formats::PoseGraph> own_graph =
+      {};  // without noise on its start and false closures
 };
 
 // Data and task.
@@ -196,7 +197,12 @@ Poses online_poses(const solve::SolveRun& run) {
   for (const formats::PoseGraph::Vertex& read : run.online) {
     if (read.T_map_base.is_finite()) poses.push_back(read);
   }
-  std::sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  // The calls of a system may read a pose several times: the first counts.
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.id < b.id; });
+  poses.erase(std::unique(poses.begin(), poses.end(),
+                          [](const auto& a, const auto& b) { return a.id == b.id; }),
+              poses.end());
   return poses;
 }
 

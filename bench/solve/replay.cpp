@@ -103,11 +103,10 @@ class Replay {
     return report;
   }
 
-  // Factors by the numbers in which they came, which those of a graph that gives them again are
-  // not.
+  // A graph numbers factors as they come.
   void tell_witness(const Step& step) {
-    for (const NewFactor& factor : step.factors) told_ids_.push_back(told_.add(factor));
-    for (const FactorId number : step.removed) told_.remove(told_ids_.at(number));
+    for (const NewFactor& factor : step.factors) told_.add(factor);
+    for (const FactorId number : step.removed) told_.remove(number);
   }
 
   void keep(const BackEndReport& report, Call call) {
@@ -137,9 +136,7 @@ class Replay {
   // Of the steps since the last update.
   double open_s_ = 0;
   Update open_;
-  // For options_.after_update.
-  graph::FactorGraph told_;
-  std::vector<FactorId> told_ids_;
+  graph::FactorGraph told_;  // for options_.after_update
 };
 
 }  // namespace

@@ -115,6 +115,8 @@ Result<void> solve_incrementally(const Problem& problem, const Recording* record
                                   : pose_graph_steps(problem, options.poses_per_update);
   if (!steps) return tl::make_unexpected(steps.error());
   auto done = replay(*steps, back_end, options, run);
+  // Whoever wants the whole solution has to read it, which a lazy solver does then.
+  if (!has_failed(run.status)) (void)back_end.estimate();
   clock.stop();
   return done;
 }

@@ -9,6 +9,7 @@
 #include "bench/statistics/bootstrap.hpp"
 #include "bench/statistics/paired_ratio.hpp"
 #include "bench/statistics/quantiles.hpp"
+#include "reports/graph_cases.hpp"
 
 namespace corridor::tables {
 namespace {
@@ -23,6 +24,14 @@ std::vector<double> values_of(const WorldValues& world_values_by_key) {
   std::vector<double> values;
   for (const auto& [world, value] : world_values_by_key) values.push_back(value);
   return values;
+}
+
+// Whether worlds or seeds draw anything that cases could differ by.
+bool is_random(const Cases& cases, const std::string& dataset, const Series& series) {
+  const std::vector<const Case*> tried = cases.of(dataset, series);
+  return std::any_of(tried.begin(), tried.end(), [](const Case* entry) {
+    return entry->result.data_seed.has_value() || reports::is_drawn(entry->result);
+  });
 }
 
 bool is_clearly_smaller(const WorldValues& candidate, const WorldValues& rival) {
@@ -73,7 +82,7 @@ bool is_scored(const Cases& cases, const std::string& dataset) {
     const results::RunResult& r = entry->result;
     return r.final_scores.position_rmse_m || r.online_scores.position_rmse_m ||
            r.final_relations.relations_translation_mean_m ||
-           r.online_relations.relations_translation_mean_m || r.chi2_gap_ratio;
+           r.online_relations.relations_translation_mean_m || r.chi2_best;
   });
 }
 
@@ -104,7 +113,8 @@ Cell summarise(const Cases& cases, const std::string& dataset, const Series& ser
   estimate.of = of;
   estimate.decimals = decimals_for(metric, estimate.median);
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (estimate.n >= kMinValuesForInterval && *least < *most) {
+  const bool is_one_run = *least == *most && !is_random(cases, dataset, series);
+  if (estimate.n >= kMinValuesForInterval && !is_one_run) {
     if (const auto interval = statistics::bootstrap_median(values)) {
       estimate.low = interval->low;
       estimate.high = interval->high;

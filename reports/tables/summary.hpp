@@ -51,7 +51,7 @@ int num_ok_worlds(const reports::Cases& cases, const std::string& dataset,
 bool is_scored(const reports::Cases& cases, const std::string& dataset);
 bool is_simulated(const reports::Cases& cases, const std::string& dataset);
 
-// The Estimate of world_values, without an interval where all are the same, or Missing "REASON
+// The Estimate of world_values, without an interval where one run was repeated, or Missing "REASON
 // (0/10)"; Missing "not run" without cases.
 Cell summarise(const reports::Cases& cases, const std::string& dataset,
                const reports::Series& series, const Metric& metric,

@@ -19,8 +19,9 @@ namespace corridor::backend {
 enum class SolveStatus {
   kConverged,      // a step or the decrease of chi2 fell below its threshold
   kMaxIterations,  // stopped by the iteration limit; the estimate is usable
-  kRankDeficient,  // some variables are undetermined; the estimate did not change
-  kNotFinite,      // a residual or Jacobian is not finite; the estimate did not change
+  // In these two the estimate is what it was before the step that failed.
+  kRankDeficient,  // some variables are undetermined
+  kNotFinite,      // a residual or Jacobian is not finite
   kEmpty,          // nothing to solve
 };
 std::string to_text(SolveStatus status);
@@ -96,8 +97,9 @@ class BackEnd {
   // Overwrites the estimate of known variables, e.g. with a front end's own.
   virtual void set_values(const graph::Values& values) = 0;
 
-  // Reading any of these four changes no later update. After an update that failed, estimate() is
-  // as it was.
+  // Reading changes no later update, but that a covariance eliminates first what was only added.
+  // After a step that failed, what estimate() gave before stands; isam2's pose(), which reads one
+  // pose exactly, may then differ from it by what back-substitution left out.
   [[nodiscard]] virtual const graph::Values& estimate() const = 0;
   // One pose of the estimate, for those who read the newest after every update: where a back-end
   // solves lazily, this costs no pass over all variables. Requires that the pose is known.

@@ -37,6 +37,8 @@ RunResult disturbed(const std::string& method, int percent, double gap_ratio, st
                        {"start", "odometry"}};
   result.parameters_hash = result.profile;
   result.status = results::CaseStatus::kOk;
+  result.chi2 = 100 * (1 + gap_ratio);
+  result.chi2_best = 100;
   result.chi2_gap_ratio = gap_ratio;
   result.wall_s = 1;
   if (percent > 0) result.false_closures = percent;
@@ -90,6 +92,7 @@ TEST(FalseClosures, LeaveAGraphFoundAgainWithinAQuarterOfTheBest) {
   result.chi2_gap_ratio = 0.26;
   EXPECT_FALSE(is_found_again(result));
   result.chi2_gap_ratio.reset();
+  result.chi2.reset();
   EXPECT_FALSE(is_found_again(result)) << "nothing measured is no success";
   result.chi2_gap_ratio = 0;
   result.status = results::CaseStatus::kDiverged;

@@ -58,10 +58,13 @@ TEST(GraphCases, AreSolvedWithinAMillionthAtOnceAndWithinHalfAPerMillePoseByPose
   EXPECT_FALSE(is_solved(result));
   EXPECT_TRUE(is_solved(graph_result("fast", "a", 1, -0.1))) << "better than the best known";
   result = graph_result("fast", "a", 1, 0);
-  result.chi2_gap_ratio.reset();
+  result.chi2.reset();
   EXPECT_FALSE(is_solved(result));
-  result.chi2 = 1e-7;
+  result.chi2 = 1e-10;
+  result.chi2_best = 0;
   EXPECT_TRUE(is_solved(result)) << "where every measurement can be met there is no ratio";
+  result.chi2 = 1e-8;
+  EXPECT_FALSE(is_solved(result));
 }
 
 TEST(BackEndTable, HasAnIntervalOfTheShareOnlyWhereSeedsDraw) {

@@ -93,7 +93,7 @@ class CeresBackEnd final : public BackEnd {
 
   BackEndReport solve() override { return minimize(options(params_.max_iterations)); }
   // Ceres keeps its decrement to itself: here the decrease that a step brought is what has to be
-  // small, or a gradient that nearly vanishes.
+  // small, or the gradient, if the settings ask for it.
   BackEndReport update_until_converged(const ConvergenceBudget& budget) override {
     ceres::Solver::Options to_goal = options(budget.max_rounds);
     to_goal.function_tolerance = budget.relative_decrement;
@@ -207,7 +207,10 @@ CeresParams tuned_ceres_params() {
   // Like our own solvers where solutions are compared to 1e-6: Ceres' own rules stop before that on
   // graphs that fit almost exactly.
   params.function_tolerance = 1e-9;
-  params.gradient_tolerance = params.parameter_tolerance = 0;
+  params.gradient_tolerance = 0;
+  // A floor for graphs that fit exactly, where the cost is rounding; about the step of 1e-8 at
+  // which our own stop.
+  params.parameter_tolerance = 1e-12;
   params.max_iterations = 100;
   return params;
 }

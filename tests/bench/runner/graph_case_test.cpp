@@ -6,6 +6,7 @@
 
 #include "bench/results/result_json.hpp"
 #include "bench/runner/case_files.hpp"
+#include "bench/runner/graph_task.hpp"
 #include "bench/runner/plan.hpp"
 #include "bench/runner/run_case.hpp"
 #include "datasets/formats/graphs/pose_graph_file.hpp"
@@ -83,6 +84,24 @@ TEST(GraphPlan, GivesASystemTheBackEndsThatTheSuiteHasForIt) {
   const Plan plan = plan_of(suite);
   ASSERT_EQ(plan.cases.size(), 3U);
   EXPECT_EQ(plan.cases[2].backend, "isam2");
+}
+
+TEST(GraphPlan, AsksNoBackEndThatForgetsForAllPosesAtOnce) {
+  Suite suite = suite_of({"graph-batch@file", "graph-incremental@each"}, {"walk-20-s1"});
+  suite.backends = {"fixed-lag", "isam2"};
+  const Plan plan = plan_of(suite);
+  ASSERT_EQ(plan.cases.size(), 3U);
+  ASSERT_EQ(plan.skipped.size(), 1U);
+  EXPECT_EQ(plan.skipped[0],
+            "graph-batch@file with fixed-lag: skipped: asks for all poses at once, and fixed-lag "
+            "forgets old ones");
+}
+
+TEST(GraphTask, StopsBackEndsOfOurOwnWhereTheOthersStop) {
+  EXPECT_EQ(task_of(GraphIncrementalParams()).settings.min_relative_decrease,
+            task_of(GraphBatchParams()).settings.min_relative_decrease);
+  EXPECT_EQ(task_of(GraphIncrementalParams()).settings.max_iterations,
+            task_of(GraphBatchParams()).settings.max_iterations);
 }
 
 TEST(GraphPlan, MakesARowOfABrokenGraphAndSkipsOneThatIsNotHere) {

@@ -47,6 +47,19 @@ TEST(SolveGraph, SaysOfEveryUpdateWhichPosesItHadAndWhatItDid) {
   EXPECT_EQ(num_relinearized, run.num_relinearized);
 }
 
+TEST(SolveGraph, ReadsTheNewestPoseAsTheEstimateHasIt) {
+  graph::Values newest;
+  const SolveRun run =
+      run_of({.mode = Mode::kIncremental, .after_update = [&](const Moment& moment) {
+                const std::uint32_t pose = moment.update.newest;
+                newest.set_pose(pose, moment.estimate().pose(pose));
+              }});
+  ASSERT_EQ(run.online.size(), newest.size());
+  for (const auto& [id, T_map_base] : run.online) {
+    EXPECT_LT(T_map_base.minus(newest.pose(id)).norm(), kSameOptimum) << id;
+  }
+}
+
 TEST(SolveGraph, ReadsEveryPoseWhenItIsTheNewestThoughFewUpdate) {
   const SolveRun often = run_of({.mode = Mode::kIncremental});
   const SolveRun seldom = run_of({.mode = Mode::kIncremental, .poses_per_update = 7});
@@ -105,7 +118,8 @@ TEST(TraceGap, CountsWhatAWindowForgetsAsMuchAsWhatItHolds) {
   const auto checkpoints = trace_gap(graph, *window, options, run->updates.size(), 10);
   ASSERT_TRUE(checkpoints.has_value());
   const Checkpoint& last = checkpoints->back();
-  EXPECT_NEAR(last.chi2, *run->chi2, kSameSum * last.chi2) << "of all edges, those that were left out among them";
+  EXPECT_NEAR(last.chi2, *run->chi2, kSameSum * last.chi2)
+      << "of all edges, those that were left out among them";
   EXPECT_NEAR(last.chi2_optimum, optimum_of(graph)->chi2, 1e-6 * last.chi2_optimum);
   EXPECT_GT(last.chi2, 1.1 * last.chi2_optimum);
 }

@@ -186,6 +186,26 @@ TEST(Ceres, AResidualThatIsNotFiniteIsAStatusAndChangesNothing) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(Ceres, AGraphThatFitsExactlyConvergesWithEitherSettings) {
+  for (const CeresParams& params : {CeresParams(), tuned_ceres_params()}) {
+    const auto solver = make_ceres(params);
+    graph::Values values;
+    values.set_pose(0, {});
+    values.set_pose(1, {1.2, 0.1, 0.1});
+    values.set_pose(2, {1.1, 0.9, 1.7});
+    const Eigen::Matrix3d weight = 10 * Eigen::Matrix3d::Identity();
+    const Pose2 quarter(1, 0, 1.5);
+    const graph::Key a = graph::pose_key(0), b = graph::pose_key(1), c = graph::pose_key(2);
+    solver->add({graph::PosePrior(a, {}, weight), graph::RelativePose(a, b, quarter, weight),
+                 graph::RelativePose(b, c, quarter, weight),
+                 graph::RelativePose(a, c, quarter * quarter, weight)},
+                values);
+    const BackEndReport report = solver->solve();
+    EXPECT_EQ(report.status, SolveStatus::kConverged);
+    EXPECT_LT(report.chi2, 1e-9);
+  }
+}
+
 TEST(Ceres, NothingToSolveIsAStatus) {
   EXPECT_EQ(make_ceres({})->solve().status, SolveStatus::kEmpty);
 }
