@@ -46,10 +46,7 @@ std::function<bool(const RunResult&)> belongs_to_false_closures(const Cases& gra
 
 }  // namespace
 
-bool is_found_again(const RunResult& result) {
-  if (!result.chi2_gap_ratio) return is_solved(result);
-  return result.status == results::CaseStatus::kOk && *result.chi2_gap_ratio <= kFoundAgain_ratio;
-}
+bool is_found_again(const RunResult& result) { return is_within(result, kFoundAgain_ratio); }
 
 std::string method_of(const RunResult& result) {
   const auto found = result.parameters.find("robust");

@@ -59,10 +59,13 @@ bool is_drawn(const results::RunResult& result) {
 
 bool is_pose_by_pose(const results::RunResult& result) { return result.step_max_us.has_value(); }
 
-bool is_solved(const results::RunResult& result) {
+bool is_within(const results::RunResult& result, double ratio) {
   if (result.status != results::CaseStatus::kOk || !result.chi2 || !result.chi2_best) return false;
-  const double limit = is_pose_by_pose(result) ? kSolvedPoseByPose_ratio : kSolvedAtOnce_ratio;
-  return *result.chi2 <= *result.chi2_best * (1 + limit) + results::kExactFit_chi2;
+  return *result.chi2 <= *result.chi2_best * (1 + ratio) + results::kExactFit_chi2;
+}
+
+bool is_solved(const results::RunResult& result) {
+  return is_within(result, is_pose_by_pose(result) ? kSolvedPoseByPose_ratio : kSolvedAtOnce_ratio);
 }
 
 Result<std::vector<UpdateRow>> read_updates(const std::filesystem::path& case_dir) {

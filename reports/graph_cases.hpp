@@ -24,6 +24,8 @@ double number_of(const results::RunResult& result, const std::string& parameter)
 // repeat is the same run, and only its times differ.
 bool is_drawn(const results::RunResult& result);
 
+// Ended with status ok and a chi2 within `ratio` of the best known, in the sense above.
+bool is_within(const results::RunResult& result, double ratio);
 bool is_pose_by_pose(const results::RunResult& result);
 bool is_solved(const results::RunResult& result);
 

@@ -84,9 +84,11 @@ Drive drive(SlamSystem& system, const SensorLog& log) {
   Drive run;
   StepStatus last_scan_status = StepStatus::kNothingToDo;
   const MemoryWatch memory;
-  const double cpu_begin_s = process_cpu_s();
+  Stopwatch clock;
+  clock.start();
   if (step_all(system, log, run, last_scan_status)) finish(system, last_scan_status, run);
-  run.cpu_s = process_cpu_s() - cpu_begin_s;
+  clock.stop();
+  run.cpu_s = clock.cpu_s();
   run.peak_rss_mib = memory.peak_mib();
   run.peak_growth_mib = memory.growth_mib();
   const std::vector<double>& steps_s = system.stage_clock().step_samples_s();

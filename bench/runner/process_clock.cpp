@@ -17,6 +17,14 @@ namespace {
 constexpr double kKibPerMib = 1024.0;
 constexpr double kBytesPerMib = 1024.0 * 1024.0;
 
+// Of all threads so far.
+double process_cpu_s() {
+  constexpr double kNanoseconds = 1e-9;
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + kNanoseconds * static_cast<double>(now.tv_nsec);
+}
+
 // A line of /proc/self/status.
 std::optional<double> status_mib(std::string_view key) {
   std::ifstream status("/proc/self/status");
@@ -32,13 +40,6 @@ std::optional<double> status_mib(std::string_view key) {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double process_cpu_s() {
-  constexpr double kNanoseconds = 1e-9;
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + kNanoseconds * static_cast<double>(now.tv_nsec);
 }
 
 void Stopwatch::start() {

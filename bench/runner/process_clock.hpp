@@ -11,9 +11,6 @@ namespace corridor::runner {
 
 double seconds_since(std::chrono::steady_clock::time_point start);
 
-// Processor time of all threads of this process so far [s].
-double process_cpu_s();
-
 // Wall and processor time of this process, while it runs.
 class Stopwatch {
  public:

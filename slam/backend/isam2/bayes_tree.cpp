@@ -108,15 +108,15 @@ std::span<const int> BayesTree::unsettled() {
   unsettled_.clear();
   if (num_unsettled_ == 0) return unsettled_;
   // Whatever is touched or unsettled, so are all above.
-  kept_.cliques = roots_;
-  kept_.cliques.insert(kept_.cliques.end(), orphans_.begin(), orphans_.end());
-  while (!kept_.cliques.empty()) {
-    const int number = kept_.cliques.back();
-    kept_.cliques.pop_back();
+  open_stack_ = roots_;
+  open_stack_.insert(open_stack_.end(), orphans_.begin(), orphans_.end());
+  while (!open_stack_.empty()) {
+    const int number = open_stack_.back();
+    open_stack_.pop_back();
     if (!at(number).is_unsettled && !at(number).is_touched) continue;
     if (!at(number).is_touched) unsettled_.push_back(number);
     for (int child = at(number).first_child; child != kNone; child = at(child).next_sibling) {
-      kept_.cliques.push_back(child);
+      open_stack_.push_back(child);
     }
   }
   std::reverse(unsettled_.begin(), unsettled_.end());

@@ -50,10 +50,15 @@ class BayesTree {
   };
   static constexpr int kNone = -1;
 
-  // Steps of all variables one after the other, see delta_in(), and memory that finding them takes.
-  struct Solution {
-    std::vector<double> deltas, below, z;
+  // Memory that finding steps takes.
+  struct Workspace {
+    std::vector<double> below, z;
     std::vector<int> cliques;
+  };
+  // Steps of all variables one after the other, see delta_in().
+  struct Solution {
+    std::vector<double> deltas;
+    Workspace work;
   };
 
   // Its number. It waits for the next detach().
@@ -165,13 +170,13 @@ class BayesTree {
   std::vector<int> free_variables_;
   std::vector<int> changed_in_;  // number of the pass that last gave it another delta
   std::vector<bool> is_listed_;  // among changed_
-  Solution kept_;
+  Solution kept_;                // of the last solution, within its threshold
   // By clique.
   std::vector<Clique> cliques_;
   std::vector<int> free_cliques_, roots_;
   FrontMemory memory_;
   // Of the update under way.
-  std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_;
+  std::vector<int> touched_, detached_, waiting_, orphans_, new_cliques_, changed_, open_stack_;
   std::vector<int> unsettled_, holders_;
   std::vector<std::size_t> detached_factors_;
   VariableSets sets_;

@@ -20,16 +20,16 @@ using Column = Eigen::Map<const Eigen::VectorXd>;
 void BayesTree::find_z(const Clique& clique, Solution& solution) const {
   const Front& front = clique.front;
   const int num_pivots = front.num_pivots(), num_below = front.num_below();
-  solution.below.clear();
+  solution.work.below.clear();
   for (const int variable : clique.separator()) {
     const double* const from = delta_in(solution, variable);
-    solution.below.insert(solution.below.end(), from, from + dimension(variable));
+    solution.work.below.insert(solution.work.below.end(), from, from + dimension(variable));
   }
-  solution.z.resize(to_index(num_pivots));
-  const Column below(solution.below.data(), num_below);
+  solution.work.z.resize(to_index(num_pivots));
+  const Column below(solution.work.below.data(), num_below);
   for (int k = 0; k < num_pivots; ++k) {
     const double* const column = front.pivot_column(k);
-    solution.z[to_index(k)] =
+    solution.work.z[to_index(k)] =
         column[front.last_row()] - Column(column + num_pivots, num_below).dot(below);
   }
 }
@@ -37,7 +37,7 @@ void BayesTree::find_z(const Clique& clique, Solution& solution) const {
 // x_f = L11^-T z, into `solution`.
 void BayesTree::substitute_back(const Clique& clique, Solution& solution) const {
   const int num_pivots = clique.front.num_pivots();
-  std::vector<double>& z = solution.z;
+  std::vector<double>& z = solution.work.z;
   for (int k = num_pivots; k-- > 0;) {
     const double* const column = clique.front.pivot_column(k);
     double sum = z[to_index(k)];
@@ -59,11 +59,12 @@ bool BayesTree::solve(Clique& clique, double threshold) {
   const auto is_far = [&](double z, double kept) {
     return !(std::abs(z - kept) <= threshold);  // also if either is not a number
   };
-  if (clique.is_solved && std::equal(kept_.z.begin(), kept_.z.end(), kept_z, std::not_fn(is_far))) {
+  if (clique.is_solved &&
+      std::equal(kept_.work.z.begin(), kept_.work.z.end(), kept_z, std::not_fn(is_far))) {
     return false;
   }
   clique.is_solved = true;
-  std::copy(kept_.z.begin(), kept_.z.end(), kept_z);
+  std::copy(kept_.work.z.begin(), kept_.work.z.end(), kept_z);
   substitute_back(clique, kept_);
   for (const int variable : clique.frontals()) {
     changed_in_[to_index(variable)] = pass_;
@@ -75,17 +76,17 @@ bool BayesTree::solve(Clique& clique, double threshold) {
 
 void BayesTree::solve_changed(double threshold) {
   ++pass_;
-  kept_.cliques = roots_;
-  while (!kept_.cliques.empty()) {
-    Clique& clique = at(kept_.cliques.back());
-    kept_.cliques.pop_back();
+  kept_.work.cliques = roots_;
+  while (!kept_.work.cliques.empty()) {
+    Clique& clique = at(kept_.work.cliques.back());
+    kept_.work.cliques.pop_back();
     const bool is_below_changed = std::ranges::any_of(
         clique.separator(), [&](int v) { return changed_in_[to_index(v)] == pass_; });
     const bool is_due = is_below_changed || !clique.is_solved || threshold < 0;
     const bool is_changed = is_due && solve(clique, threshold);
     if (!is_changed && !is_below_changed) continue;
     for (int child = clique.first_child; child != kNone; child = at(child).next_sibling) {
-      kept_.cliques.push_back(child);
+      kept_.work.cliques.push_back(child);
     }
   }
 }
@@ -99,27 +100,27 @@ void BayesTree::solve_all() { solve_changed(-1); }
 
 void BayesTree::read_all(Solution& solution) const {
   solution.deltas = kept_.deltas;
-  solution.cliques = roots_;
-  while (!solution.cliques.empty()) {
-    const Clique& above = clique(solution.cliques.back());
-    solution.cliques.pop_back();
+  solution.work.cliques = roots_;
+  while (!solution.work.cliques.empty()) {
+    const Clique& above = clique(solution.work.cliques.back());
+    solution.work.cliques.pop_back();
     find_z(above, solution);
     substitute_back(above, solution);
     for (int child = above.first_child; child != kNone; child = clique(child).next_sibling) {
-      solution.cliques.push_back(child);
+      solution.work.cliques.push_back(child);
     }
   }
 }
 
 void BayesTree::read_path(int variable, Solution& solution) const {
   solution.deltas.resize(kept_.deltas.size());
-  solution.cliques.clear();
+  solution.work.cliques.clear();
   for (int number = clique_of(variable); number != kNone; number = clique(number).parent) {
-    solution.cliques.push_back(number);
+    solution.work.cliques.push_back(number);
   }
-  while (!solution.cliques.empty()) {
-    const Clique& above = clique(solution.cliques.back());
-    solution.cliques.pop_back();
+  while (!solution.work.cliques.empty()) {
+    const Clique& above = clique(solution.work.cliques.back());
+    solution.work.cliques.pop_back();
     find_z(above, solution);
     substitute_back(above, solution);
   }
