@@ -1,26 +1,43 @@
 #include "baselines/karto/beam_offsets.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "baselines/karto/round_cells.hpp"
 
 namespace corridor::karto {
+namespace {
 
-void fill_beam_offsets(std::span<const Eigen::Vector2d> beams_sensor_m, double heading_rad,
+// Beams are rotated by blocks, in a loop without branches, and sorted out afterwards.
+constexpr Eigen::Index kBlock = 64;
+
+}  // namespace
+
+void fill_beam_offsets(const PointColumns& beams_sensor_m, double heading_rad,
                        const CorrelationGrid& grid, std::vector<BeamOffset>& offsets) {
   const double cells_per_m = 1 / grid.resolution_m();
   const double c = std::cos(heading_rad) * cells_per_m;
   const double s = std::sin(heading_rad) * cells_per_m;
   // Beyond it every linear index is outside the grid, and int32 could overflow.
-  const double limit_cells = 2.0 * grid.num_cells() / grid.stride();
+  const std::int32_t row_limit = 2 * (grid.num_cells() / grid.stride());
+  const std::int32_t column_limit = grid.num_cells();
+  std::array<std::int32_t, kBlock> columns;
+  std::array<std::int32_t, kBlock> rows;
   offsets.clear();
-  for (const Eigen::Vector2d& beam_m : beams_sensor_m) {
-    const double column = c * beam_m.x() - s * beam_m.y();
-    const double row = s * beam_m.x() + c * beam_m.y();
-    if (!(std::abs(row) < limit_cells && std::abs(column) < grid.num_cells())) continue;
-    const auto column_cells = round_to_cell(column);
-    const auto row_cells = round_to_cell(row);
-    offsets.push_back({column_cells + row_cells * grid.stride(), column_cells});
+  for (Eigen::Index begin = 0; begin < beams_sensor_m.rows(); begin += kBlock) {
+    const auto count = static_cast<std::size_t>(std::min(kBlock, beams_sensor_m.rows() - begin));
+    const double* const x_m = beams_sensor_m.col(0).data() + begin;
+    const double* const y_m = beams_sensor_m.col(1).data() + begin;
+    for (std::size_t i = 0; i < count; ++i) {
+      columns[i] = round_to_cell(std::fma(c, x_m[i], -(s * y_m[i])));
+      rows[i] = round_to_cell(std::fma(s, x_m[i], c * y_m[i]));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::abs(rows[i]) >= row_limit || std::abs(columns[i]) >= column_limit) continue;
+      offsets.push_back({columns[i] + rows[i] * grid.stride(), columns[i]});
+    }
   }
 }
 

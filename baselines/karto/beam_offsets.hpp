@@ -1,9 +1,7 @@
 // End points of a scan as index offsets into a correlation grid, for one heading.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "baselines/karto/correlation_grid.hpp"
@@ -16,8 +14,8 @@ struct BeamOffset {
 };
 
 // Rotates each end point by `heading_rad` and rounds to cells relative to the sensor's cell. Points
-// that are not finite, or farther than any grid reaches, are left out.
-void fill_beam_offsets(std::span<const Eigen::Vector2d> beams_sensor_m, double heading_rad,
+// farther than any grid reaches are left out; requires finite coordinates of at most 1e5 cells.
+void fill_beam_offsets(const PointColumns& beams_sensor_m, double heading_rad,
                        const CorrelationGrid& grid, std::vector<BeamOffset>& offsets);
 
 }  // namespace corridor::karto

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "baselines/karto/smear_kernel.hpp"
+#include "baselines/karto/valid_points.hpp"
 
 namespace corridor::karto {
 
@@ -32,8 +33,11 @@ class CorrelationGrid {
 
   // Empties the grid and moves its middle cell's centre to a point of the map.
   void reset(const Eigen::Vector2d& centre_map_m);
-  // Sets the cell of each point to kOccupied and stamps the kernel around it with max().
-  void add_points(std::span<const Eigen::Vector2d> points_map_m);
+  // The linear index of each point's cell, kOutside for those beyond the inner cells.
+  void find_cells(const PointColumns& points_map_m, std::vector<std::int32_t>& indices) const;
+  static constexpr std::int32_t kOutside = -1;
+  // Sets each of these cells to kOccupied and stamps the kernel around it with max().
+  void occupy(std::span<const std::int32_t> indices);
 
   [[nodiscard]] int side_cells() const { return side_; }
   [[nodiscard]] int stride() const { return stride_; }
@@ -50,12 +54,13 @@ class CorrelationGrid {
   static constexpr int kMargin = 64;
 
  private:
+  // What a reset erases at once: the stamps around all cells of one block.
+  static constexpr int kBlockShift_rows = 5;
+  static constexpr int kBlockShift_columns = 6;
+
   void stamp(std::int32_t centre_index);
-  void erase(std::int32_t centre_index);
-  // The kernel's lower left cell; inside the grid for every inner centre.
-  [[nodiscard]] std::int32_t first_of_stamp(std::int32_t centre_index) const {
-    return centre_index - kernel_.half_width * (stride_ + 1);
-  }
+  void remember_block(std::int32_t centre_index);
+  void erase_block(std::int32_t block);
 
   double resolution_m_;
   SmearKernel kernel_;
@@ -64,7 +69,9 @@ class CorrelationGrid {
   int stride_;
   Eigen::Vector2d corner_map_m_ = Eigen::Vector2d::Zero();  // centre of cell (0, 0)
   std::vector<std::uint8_t> bytes_;
-  std::vector<std::int32_t> stamped_;  // linear indices of the occupied cells, to erase only those
+  int blocks_per_row_;
+  std::vector<std::uint8_t> is_drawn_;  // by block: it has occupied cells
+  std::vector<std::int32_t> drawn_blocks_;
 };
 
 }  // namespace corridor::karto

@@ -17,6 +17,9 @@ namespace corridor::karto {
 struct MatchOptions {
   bool use_penalty = false;    // prefer poses near the prediction
   bool use_refinement = true;  // fine stage after the coarse one
+  // The caller takes no match that responds with this or less: a search without refinement need
+  // not tell such poses apart, and may report a smaller response.
+  double min_response = 0;
 };
 
 struct MatchResult {
@@ -42,13 +45,23 @@ class CorrelativeMatcher {
     int step_cells;
   };
 
+  // What one heading of a search needs; kept from one to the next.
+  struct Heading {
+    std::vector<BeamOffset> offsets;
+    WindowSweep sweep;
+  };
+
   void draw_local_map(const Eigen::Vector2d& viewpoint_m,
                       std::span<const KeyScan* const> local_map);
   void select_beams(const KeyScan& scan);
-  MatchResult coarse_search(const Pose2& centre, bool use_penalty);
-  MatchResult search_coarse_once(const Pose2& centre, double half_width_rad, bool use_penalty);
+  MatchResult coarse_search(const Pose2& centre, const MatchOptions& options);
+  MatchResult search_coarse_once(const Pose2& centre, double half_width_rad,
+                                 const MatchOptions& options);
   MatchResult refine(const MatchResult& coarse, bool use_penalty);
-  ResponseTable respond(const Pose2& centre, const Stage& stage, bool use_penalty);
+  [[nodiscard]] std::uint32_t min_sum(const MatchOptions& options) const;
+  void sum_up(const Pose2& centre, const Stage& stage, std::uint32_t min_sum);
+  [[nodiscard]] double best_unpenalised_response() const;
+  [[nodiscard]] ResponseTable responses(const Stage& stage, bool use_penalty) const;
   void apply_penalty(ResponseTable& table) const;
   double variance_of_heading(const Pose2& centre, const SearchAxis& heading_rad,
                              const SearchOffset& best, double best_response);
@@ -57,11 +70,11 @@ class CorrelativeMatcher {
   double window_m_;
   EdgeRule edge_rule_;
   CorrelationGrid grid_;
-  std::vector<Eigen::Vector2d> facing_points_m_;
-  std::vector<Eigen::Vector2d> beams_sensor_m_;
-  double full_response_ = 1;  // sum that would be a response of 1
-  std::vector<BeamOffset> offsets_;
-  std::vector<std::uint32_t> sums_;
+  std::vector<std::int32_t> cells_;  // of the points of one scan
+  PointColumns beams_sensor_m_;      // end points to look up
+  double full_response_ = 1;         // sum that would be a response of 1
+  std::vector<Heading> headings_;
+  std::vector<std::uint32_t> sums_;  // by heading, then by position
 };
 
 }  // namespace corridor::karto

@@ -37,6 +37,7 @@ KeyScan::KeyScan(const LaserScan& scan, const Pose2& T_odom_base, const KeyScanO
     beams_sensor_m_[i] =
         is_finite ? Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad))
                   : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    if (has_point(i)) ++num_points_;
   }
   set_T_map_sensor(T_odom_sensor_);
 }
@@ -45,14 +46,16 @@ void KeyScan::set_T_map_sensor(const Pose2& T_map_sensor) {
   T_map_sensor_ = T_map_sensor;
   const Eigen::Matrix2d R_map_sensor = T_map_sensor.rotation();
   const Eigen::Vector2d t_map_sensor_m = T_map_sensor.translation_m();
-  points_map_m_.clear();
+  points_map_m_.resize(num_points_, 2);
   Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
+  Eigen::Index row = 0;
   for (std::size_t i = 0; i < beams_sensor_m_.size(); ++i) {
-    const bool is_kept = options_.keep_no_returns && beams_sensor_m_[i].allFinite();
-    if (!is_in_range_[i] && !is_kept) continue;
-    points_map_m_.emplace_back(R_map_sensor * beams_sensor_m_[i] + t_map_sensor_m);
-    if (is_in_range_[i]) sum_m += points_map_m_.back();
+    if (!has_point(i)) continue;
+    const Eigen::Vector2d point_map_m = R_map_sensor * beams_sensor_m_[i] + t_map_sensor_m;
+    points_map_m_.row(row++) = point_map_m.transpose();
+    if (is_in_range_[i]) sum_m += point_map_m;
   }
+  cut_surface(points_map_m_, kAnchorSpacing_m, surface_map_);
   reference_map_m_ = options_.use_barycentre && is_usable()
                          ? Eigen::Vector2d(sum_m / static_cast<double>(num_in_range_))
                          : t_map_sensor_m;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "baselines/karto/valid_points.hpp"
 #include "slam/core/scan.hpp"
 
 namespace corridor::karto {
@@ -45,7 +46,9 @@ class KeyScan {
   // 1 where the sensor saw a surface, even beyond the range threshold.
   [[nodiscard]] const std::vector<std::uint8_t>& is_return() const { return is_return_; }
   // End points of the beams in range, and of the others if kept, in order of the beams, map frame.
-  [[nodiscard]] const std::vector<Eigen::Vector2d>& points_map_m() const { return points_map_m_; }
+  [[nodiscard]] const PointColumns& points_map_m() const { return points_map_m_; }
+  // Those points as pieces of surface, in the map.
+  [[nodiscard]] const std::vector<SurfacePiece>& surface_map() const { return surface_map_; }
   // False if no beam is in range: there is nothing to match or to map.
   [[nodiscard]] bool is_usable() const { return num_in_range_ > 0; }
   // Where the scan "is" in every test of distance: the mean of its end points in range, or
@@ -53,16 +56,23 @@ class KeyScan {
   [[nodiscard]] const Eigen::Vector2d& reference_map_m() const { return reference_map_m_; }
 
  private:
+  [[nodiscard]] bool has_point(std::size_t beam) const {
+    return is_in_range_[beam] != 0 ||
+           (options_.keep_no_returns && beams_sensor_m_[beam].allFinite());
+  }
+
   Timestamp stamp_;
   Pose2 T_base_sensor_;
   Pose2 T_odom_sensor_;
   Pose2 T_map_sensor_;
   KeyScanOptions options_;
-  std::size_t num_in_range_ = 0;
+  Eigen::Index num_in_range_ = 0;
+  Eigen::Index num_points_ = 0;
   std::vector<Eigen::Vector2d> beams_sensor_m_;
   std::vector<std::uint8_t> is_in_range_;
   std::vector<std::uint8_t> is_return_;
-  std::vector<Eigen::Vector2d> points_map_m_;
+  PointColumns points_map_m_;
+  std::vector<SurfacePiece> surface_map_;
   Eigen::Vector2d reference_map_m_ = Eigen::Vector2d::Zero();
 };
 

@@ -9,7 +9,6 @@ namespace {
 
 constexpr MatchOptions kSequential{.use_penalty = true, .use_refinement = true};
 constexpr MatchOptions kNearChain{.use_penalty = false, .use_refinement = true};
-constexpr MatchOptions kLoopCoarse{.use_penalty = false, .use_refinement = false};
 constexpr MatchOptions kLoopFine{.use_penalty = false, .use_refinement = true};
 
 GridSpec sequential_grid(const KartoParams& params, double range_threshold_m) {
@@ -127,7 +126,10 @@ void Mapper::close_loops() {
 // Three stages: a coarse match in the wide window, a fine one around its answer, the edge.
 bool Mapper::try_loop(const Chain& chain) {
   ++counters_.coarse_loop_matches;
-  const MatchResult coarse = match(loop_matcher_, newest().T_map_sensor(), chain, kLoopCoarse);
+  const MatchOptions in_wide_window{.use_penalty = false,
+                                    .use_refinement = false,
+                                    .min_response = params_.loop_min_response_coarse};
+  const MatchResult coarse = match(loop_matcher_, newest().T_map_sensor(), chain, in_wide_window);
   const bool is_accepted = coarse.response > params_.loop_min_response_coarse &&
                            coarse.covariance_map(0, 0) < params_.loop_max_variance_coarse_m2 &&
                            coarse.covariance_map(1, 1) < params_.loop_max_variance_coarse_m2;

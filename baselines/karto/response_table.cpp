@@ -7,14 +7,14 @@ namespace corridor::karto {
 namespace {
 
 constexpr double kTolerance = 1e-6;            // two responses are equal within it
-constexpr double kResponseMargin = 0.1;        // poses this close to the best shape the covariance
 constexpr double kVarianceFloor_steps2 = 0.1;  // of one step of the search, squared
 constexpr double kUnknownVariance_m2 = 500;
 
-double best_over_headings(const ResponseTable& table, int y, int x) {
-  double best = 0;
+// By y, then by x; at least 0.
+Eigen::ArrayXd best_over_headings(const ResponseTable& table) {
+  Eigen::ArrayXd best = Eigen::ArrayXd::Zero(table.num_positions() * table.num_positions());
   for (int heading = 0; heading < table.num_headings(); ++heading) {
-    best = std::max(best, table.at(heading, y, x));
+    best = best.max(table.of_heading(heading));
   }
   return best;
 }
@@ -33,7 +33,9 @@ ResponseTable::ResponseTable(const SearchAxis& position_m, const SearchAxis& hea
                  static_cast<std::size_t>(num_positions_)) {}
 
 double ResponseTable::best_response() const {
-  return *std::max_element(responses_.begin(), responses_.end());
+  return Eigen::Map<const Eigen::ArrayXd>(responses_.data(),
+                                          static_cast<Eigen::Index>(responses_.size()))
+      .maxCoeff();
 }
 
 SearchOffset mean_best_offset(const ResponseTable& table, double best_response) {
@@ -42,6 +44,7 @@ SearchOffset mean_best_offset(const ResponseTable& table, double best_response) 
   double sin_sum = 0;
   int count = 0;
   for (int heading = 0; heading < table.num_headings(); ++heading) {
+    if (table.of_heading(heading).maxCoeff() < best_response - kTolerance) continue;
     const double heading_rad = table.heading_rad().offset(heading);
     for (int y = 0; y < table.num_positions(); ++y) {
       for (int x = 0; x < table.num_positions(); ++x) {
@@ -60,11 +63,12 @@ SearchOffset mean_best_offset(const ResponseTable& table, double best_response) 
 Eigen::Matrix2d positional_covariance(const ResponseTable& table, double best_response,
                                       const SearchOffset& best) {
   if (best_response < kTolerance) return kUnknownVariance_m2 * Eigen::Matrix2d::Identity();
+  const Eigen::ArrayXd best_responses = best_over_headings(table);
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   double weight_sum = 0;
   for (int y = 0; y < table.num_positions(); ++y) {
     for (int x = 0; x < table.num_positions(); ++x) {
-      const double response = best_over_headings(table, y, x);
+      const double response = best_responses[y * table.num_positions() + x];
       if (response < best_response - kResponseMargin) continue;
       const Eigen::Vector2d from_best_m =
           Eigen::Vector2d(table.position_m().offset(x), table.position_m().offset(y)) -

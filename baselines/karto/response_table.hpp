@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "slam/core/pose2.hpp"
@@ -23,6 +24,7 @@ struct SearchAxis {
 // x and y along the map's axes, share one SearchAxis; heading has its own.
 class ResponseTable {
  public:
+  // All responses are 0.
   ResponseTable(const SearchAxis& position_m, const SearchAxis& heading_rad);
 
   [[nodiscard]] const SearchAxis& position_m() const { return position_m_; }
@@ -34,8 +36,13 @@ class ResponseTable {
   [[nodiscard]] double at(int heading, int y, int x) const {
     return responses_[index(heading, y, x)];
   }
-  // The num_positions() responses along x.
-  [[nodiscard]] double* row(int heading, int y) { return responses_.data() + index(heading, y, 0); }
+  // All of them: by heading, then by y, then by x.
+  [[nodiscard]] std::span<double> responses() { return responses_; }
+  // Of one heading, by y, then by x.
+  using Slice = Eigen::Map<const Eigen::ArrayXd>;
+  [[nodiscard]] Slice of_heading(int heading) const {
+    return {responses_.data() + index(heading, 0, 0), num_positions_ * num_positions_};
+  }
 
   [[nodiscard]] double best_response() const;
 
@@ -63,15 +70,19 @@ struct SearchOffset {
 // Mean of all offsets whose response is the best within 1e-6; circular mean for the heading.
 SearchOffset mean_best_offset(const ResponseTable& table, double best_response);
 
+// Poses this close to the best response shape the covariance.
+inline constexpr double kResponseMargin = 0.1;
+
 // 2x2 [m^2], order (x, y) of the map, around `best`: each position counts with its best response
-// over the headings if that is within 0.1 of the best one, weight = response; variances at least
-// 0.1 * step^2; all divided by the best response. 500 m^2 on the diagonal if nothing responds.
+// over the headings if that is within kResponseMargin of the best one, weight = response; variances
+// at least 0.1 * step^2; all divided by the best response. 500 m^2 on the diagonal if nothing
+// responds.
 Eigen::Matrix2d positional_covariance(const ResponseTable& table, double best_response,
                                       const SearchOffset& best);
 
 // Variance [rad^2] of the heading from the responses at the best position, one per heading offset:
-// sum r (a - best)^2 / sum r over responses within 0.1 of the best; a sum below 1e-6 is replaced by
-// step^2 first. `fallback_rad2` if nothing responds.
+// sum r (a - best)^2 / sum r over responses within kResponseMargin of the best; a sum below 1e-6 is
+// replaced by step^2 first. `fallback_rad2` if nothing responds.
 double heading_variance(const std::vector<double>& responses, const SearchAxis& heading_rad,
                         double best_response, double best_heading_rad, double fallback_rad2);
 

@@ -1,4 +1,5 @@
-// Rounding to whole cells, inline: it runs for every end point of every match.
+// Rounding to grid cells, the same everywhere: a point on the edge of two cells must not depend on
+// who rounds it. A changed cell changes a match.
 #pragma once
 
 #include <cmath>
@@ -6,9 +7,10 @@
 
 namespace corridor::karto {
 
-// Nearest integer, halves away from zero, like std::lround but without the call.
+// Nearest integer, halves away from zero, like std::lround but without the call; requires a value
+// that fits. The conversion cuts off the decimals, and loops of it become vectors.
 inline std::int32_t round_to_cell(double cells) {
-  return static_cast<std::int32_t>(std::trunc(cells + std::copysign(0.5, cells)));
+  return static_cast<std::int32_t>(cells + std::copysign(0.5, cells));
 }
 
 }  // namespace corridor::karto

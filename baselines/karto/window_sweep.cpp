@@ -1,45 +1,105 @@
 #include "baselines/karto/window_sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
 
+#include "slam/core/expect.hpp"
+
 namespace corridor::karto {
 namespace {
 
-// As many beams as a 16-bit sum of values up to kOccupied can hold.
-constexpr std::size_t kMaxBeamsPerBlock = std::numeric_limits<std::uint16_t>::max() / kOccupied;
-constexpr int kLanes = 16;
-constexpr int kBytesPerBlock = 2 * kLanes;
-// The coarse sweep reads pairs of bytes as one 16-bit lane and keeps the first of the pair.
+constexpr int kBytes = 32;          // of one vector
+constexpr int kLanes = kBytes / 2;  // 16-bit sums in it
+constexpr int kTileRows = 4;        // rows of positions that are summed at once
+// Between two looks at whether a tile can still reach the sum that is asked for, if one is.
+constexpr std::size_t kBeamsPerLook = 32;
+// As many as a 16-bit sum can hold.
+constexpr std::size_t kMaxBeamsPerLook = std::numeric_limits<std::uint16_t>::max() / kOccupied;
+// A pair of bytes is read as one 16-bit lane: its first byte is the low one.
 constexpr std::uint16_t kLowByte = 0xff;
+constexpr int kByteBits = 8;
 static_assert(std::endian::native == std::endian::little);
+static_assert(2 * kOccupied <= std::numeric_limits<std::uint8_t>::max());
 // The lanes beyond the window read past the last row.
-static_assert(CorrelationGrid::kMargin >= kBytesPerBlock);
+static_assert(CorrelationGrid::kMargin >= 2 * kBytes);
 
-// A vector of GCC and Clang: an array would travel through memory, several times slower.
-using Lanes [[gnu::vector_size(kBytesPerBlock)]] = std::uint16_t;
+// Vectors of GCC and Clang, for whatever instructions the build allows: arrays would travel through
+// memory, several times slower.
+using Bytes [[gnu::vector_size(kBytes)]] = std::uint8_t;
+using Lanes [[gnu::vector_size(kBytes)]] = std::uint16_t;
+
+Bytes load(const std::uint8_t* cells) {
+  Bytes bytes;
+  std::memcpy(&bytes, cells, sizeof(bytes));
+  return bytes;
+}
+
+// 16-bit sums of the positions of kRows rows under one vector of grid cells each: those at even
+// cells, and with steps of one cell those at odd cells as well.
+template <int kStep, int kRows>
+struct TileSums {
+  static constexpr int kColumns = kBytes / kStep;
+
+  void add(const std::uint8_t* cells, std::ptrdiff_t row_bytes,
+           std::span<const std::int32_t> beams) {
+    std::size_t i = 0;
+    // Two values fit into a byte.
+    for (; i + 2 <= beams.size(); i += 2) {
+      for (int row = 0; row < kRows; ++row) {
+        const std::uint8_t* const row_cells = cells + row * row_bytes;
+        add(row, load(row_cells + beams[i]) + load(row_cells + beams[i + 1]));
+      }
+    }
+    if (i == beams.size()) return;
+    for (int row = 0; row < kRows; ++row) add(row, load(cells + row * row_bytes + beams[i]));
+  }
+
+  // sums[i] += sum at column i of the row.
+  void flush(int row, int count, std::uint32_t* sums) const {
+    for (int i = 0; i < count; ++i) {
+      if constexpr (kStep == 2) {
+        sums[i] += even[row][i];
+      } else {
+        sums[i] += i % 2 == 0 ? even[row][i / 2] : odd[row][i / 2];
+      }
+    }
+  }
+
+ private:
+  void add(int row, Bytes bytes) {
+    const auto pairs = reinterpret_cast<Lanes>(bytes);
+    even[row] += pairs & kLowByte;
+    if constexpr (kStep == 1) odd[row] += pairs >> kByteBits;
+  }
+
+  std::array<Lanes, kRows> even{};
+  std::array<Lanes, kStep == 1 ? kRows : 1> odd{};
+};
 
 class Sweep {
  public:
   Sweep(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
-        std::vector<std::uint32_t>& sums)
+        std::span<std::uint32_t> sums)
       : grid_(grid), window_(window), edge_rule_(edge_rule), sums_(sums) {}
 
-  void run(std::span<const BeamOffset> offsets) {
-    inner_.clear();
+  void run(std::span<const BeamOffset> offsets, std::uint32_t min_sum,
+           std::vector<std::int32_t>& inner) {
+    std::fill(sums_.begin(), sums_.end(), 0);
+    inner.clear();
     for (const BeamOffset& offset : offsets) {
       if (is_inner(offset)) {
-        inner_.push_back(offset.linear);
+        inner.push_back(offset.linear);
       } else {
         add_checked(offset);
       }
     }
-    for (std::size_t done = 0; done < inner_.size(); done += kMaxBeamsPerBlock) {
-      const std::size_t count = std::min(kMaxBeamsPerBlock, inner_.size() - done);
-      const std::span<const std::int32_t> beams(inner_.data() + done, count);
-      for (int row = 0; row < window_.count; ++row) add_row(beams, row);
+    if (window_.step_cells == 1) {
+      add_tiles<1>(inner, min_sum);
+    } else {
+      add_tiles<2>(inner, min_sum);
     }
   }
 
@@ -48,19 +108,24 @@ class Sweep {
     return window_.first_column +
            std::int64_t{window_.first_row + row * window_.step_cells} * grid_.stride();
   }
+  [[nodiscard]] int span_cells() const { return window_.step_cells * (window_.count - 1); }
+  [[nodiscard]] std::int64_t lowest_index(const BeamOffset& offset) const {
+    return index_of(0) + offset.linear;
+  }
+  [[nodiscard]] std::int64_t highest_index(const BeamOffset& offset) const {
+    return index_of(window_.count - 1) + span_cells() + offset.linear;
+  }
   // True if the beam may be read at every position of the window.
   [[nodiscard]] bool is_inner(const BeamOffset& offset) const {
-    const int span_cells = window_.step_cells * (window_.count - 1);
-    const std::int64_t lowest = index_of(0) + offset.linear;
-    const std::int64_t highest = index_of(window_.count - 1) + span_cells + offset.linear;
-    if (lowest < 0 || highest >= grid_.num_cells()) return false;
+    if (lowest_index(offset) < 0 || highest_index(offset) >= grid_.num_cells()) return false;
     if (edge_rule_ == EdgeRule::kWrap) return true;
     const std::int64_t column = std::int64_t{window_.first_column} + offset.column;
-    return column >= 0 && column + span_cells < grid_.side_cells();
+    return column >= 0 && column + span_cells() < grid_.side_cells();
   }
 
   // A beam that leaves the grid somewhere in the window: only its readable positions, row by row.
   void add_checked(const BeamOffset& offset) {
+    if (highest_index(offset) < 0 || lowest_index(offset) >= grid_.num_cells()) return;
     const std::int64_t column = std::int64_t{window_.first_column} + offset.column;
     const IndexSpan in_columns = edge_rule_ == EdgeRule::kStop
                                      ? positions_within(column, grid_.side_cells())
@@ -70,7 +135,7 @@ class Sweep {
       const IndexSpan in_memory = positions_within(first, grid_.num_cells());
       const int end = std::min(in_columns.end, in_memory.end);
       for (int i = std::max(in_columns.begin, in_memory.begin); i < end; ++i) {
-        sum(row, i) += grid_.cells()[first + std::int64_t{window_.step_cells} * i];
+        sums_of(row)[i] += grid_.cells()[first + std::int64_t{window_.step_cells} * i];
       }
     }
   }
@@ -94,50 +159,64 @@ class Sweep {
     return {first_at_or_above(0), first_at_or_above(limit)};
   }
 
-  void add_row(std::span<const std::int32_t> beams, int row) {
-    const std::uint8_t* const cells = grid_.cells() + index_of(row);
-    if (window_.step_cells != 2) {
-      for (int i = 0; i < window_.count; ++i) {
-        for (const std::int32_t beam : beams) sum(row, i) += cells[beam + i * window_.step_cells];
+  template <int kStep>
+  void add_tiles(std::span<const std::int32_t> beams, std::uint32_t min_sum) {
+    int row = 0;
+    for (; row + kTileRows <= window_.count; row += kTileRows) {
+      add_tile_row<kStep, kTileRows>(beams, row, min_sum);
+    }
+    if (row + 3 == window_.count) return add_tile_row<kStep, 3>(beams, row, min_sum);
+    for (; row < window_.count; ++row) add_tile_row<kStep, 1>(beams, row, min_sum);
+  }
+
+  template <int kStep, int kRows>
+  void add_tile_row(std::span<const std::int32_t> beams, int row, std::uint32_t min_sum) {
+    constexpr int kColumns = TileSums<kStep, kRows>::kColumns;
+    for (int column = 0; column < window_.count; column += kColumns) {
+      add_tile<kStep, kRows>(beams, row, column, min_sum);
+    }
+  }
+
+  template <int kStep, int kRows>
+  void add_tile(std::span<const std::int32_t> beams, int first_row, int first_column,
+                std::uint32_t min_sum) {
+    const std::uint8_t* const cells = grid_.cells() + index_of(first_row) + kStep * first_column;
+    const std::ptrdiff_t row_bytes = std::ptrdiff_t{kStep} * grid_.stride();
+    const int count = std::min(TileSums<kStep, kRows>::kColumns, window_.count - first_column);
+    const std::size_t beams_per_look = min_sum > 0 ? kBeamsPerLook : kMaxBeamsPerLook;
+    while (!beams.empty()) {
+      const std::size_t num_beams = std::min(beams.size(), beams_per_look);
+      TileSums<kStep, kRows> tile;
+      tile.add(cells, row_bytes, beams.first(num_beams));
+      beams = beams.subspan(num_beams);
+      std::uint32_t largest = 0;
+      for (int row = 0; row < kRows; ++row) {
+        std::uint32_t* const sums = sums_of(first_row + row) + first_column;
+        tile.flush(row, count, sums);
+        largest = std::max(largest, *std::max_element(sums, sums + count));
       }
-      return;
-    }
-    for (int first = 0; first < window_.count; first += kLanes) {
-      const Lanes lanes = add_even_bytes(beams, cells + 2 * first);
-      const int count = std::min(kLanes, window_.count - first);
-      for (int i = 0; i < count; ++i) sum(row, first + i) += lanes[i];
+      if (largest + kOccupied * beams.size() < min_sum) return;
     }
   }
 
-  // lanes[k] = sum over beams of cells[beam + 2 k].
-  static Lanes add_even_bytes(std::span<const std::int32_t> beams, const std::uint8_t* cells) {
-    Lanes lanes{};
-    for (const std::int32_t beam : beams) {
-      Lanes pairs;
-      std::memcpy(&pairs, cells + beam, sizeof(pairs));
-      lanes += pairs & kLowByte;
-    }
-    return lanes;
-  }
-
-  [[nodiscard]] std::uint32_t& sum(int row, int column) {
-    return sums_[static_cast<std::size_t>(row * window_.count + column)];
+  [[nodiscard]] std::uint32_t* sums_of(int row) {
+    return sums_.data() + static_cast<std::ptrdiff_t>(row) * window_.count;
   }
 
   const CorrelationGrid& grid_;
   const SweepWindow& window_;
   EdgeRule edge_rule_;
-  std::vector<std::uint32_t>& sums_;
-  std::vector<std::int32_t> inner_;
+  std::span<std::uint32_t> sums_;
 };
 
 }  // namespace
 
-void sweep_window(const CorrelationGrid& grid, std::span<const BeamOffset> offsets,
-                  const SweepWindow& window, EdgeRule edge_rule, std::vector<std::uint32_t>& sums) {
-  const auto count = static_cast<std::size_t>(window.count);
-  sums.assign(count * count, 0);
-  Sweep(grid, window, edge_rule, sums).run(offsets);
+void WindowSweep::run(const CorrelationGrid& grid, std::span<const BeamOffset> offsets,
+                      const SweepWindow& window, EdgeRule edge_rule, std::uint32_t min_sum,
+                      std::span<std::uint32_t> sums) {
+  CORRIDOR_EXPECT(window.step_cells == 1 || window.step_cells == 2);
+  CORRIDOR_EXPECT(sums.size() == window.num_positions());
+  Sweep(grid, window, edge_rule, sums).run(offsets, min_sum, inner_);
 }
 
 }  // namespace corridor::karto
