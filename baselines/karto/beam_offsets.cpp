@@ -36,7 +36,7 @@ void fill_beam_offsets(const PointColumns& beams_sensor_m, double heading_rad,
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (std::abs(rows[i]) >= row_limit || std::abs(columns[i]) >= column_limit) continue;
-      offsets.push_back({columns[i] + rows[i] * grid.stride(), columns[i]});
+      offsets.push_back({columns[i] + rows[i] * grid.stride(), columns[i], rows[i]});
     }
   }
 }

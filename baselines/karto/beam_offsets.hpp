@@ -11,6 +11,7 @@ namespace corridor::karto {
 struct BeamOffset {
   std::int32_t linear = 0;  // column + row * stride
   std::int32_t column = 0;
+  std::int32_t row = 0;
 };
 
 // Rotates each end point by `heading_rad` and rounds to cells relative to the sensor's cell. Points

@@ -11,6 +11,8 @@ namespace corridor::karto {
 namespace {
 
 constexpr int kRowAlignment_cells = 8;
+constexpr int kErasedAtOnce = 32;
+static_assert(kErasedAtOnce <= CorrelationGrid::kMargin);
 
 int round_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
@@ -31,21 +33,19 @@ int GridSpec::inner_side_cells() const {
          2 * static_cast<int>(std::ceil(reach_m / resolution_m));
 }
 
-CorrelationGrid::CorrelationGrid(const GridSpec& spec)
+// What reads a cell reads what was stamped around others.
+CorrelationGrid::CorrelationGrid(const GridSpec& spec, int read_margin_cells)
     : resolution_m_(spec.resolution_m),
       kernel_(spec.smear_m, spec.resolution_m),
       border_(kernel_.half_width + 1),
       side_(spec.inner_side_cells() + 2 * border_),
       stride_(round_up(side_, kRowAlignment_cells)),
       bytes_(static_cast<std::size_t>(num_cells()) + 2 * kMargin, 0),
-      blocks_per_row_((stride_ >> kBlockShift_columns) + 1),
-      is_drawn_(static_cast<std::size_t>(blocks_per_row_) *
-                    static_cast<std::size_t>((side_ >> kBlockShift_rows) + 1),
-                0) {}
+      blocks_(side_, stride_, read_margin_cells + kernel_.half_width) {}
 
 void CorrelationGrid::reset(const Eigen::Vector2d& centre_map_m) {
-  for (const std::int32_t block : drawn_blocks_) erase_block(block);
-  drawn_blocks_.clear();
+  for (const std::int32_t block : blocks_.drawn()) erase_block(block);
+  blocks_.clear();
   corner_map_m_ = centre_map_m - Eigen::Vector2d::Constant(0.5 * (side_ - 1) * resolution_m_);
 }
 
@@ -55,10 +55,10 @@ Eigen::Vector2i CorrelationGrid::cell_of(const Eigen::Vector2d& point_map_m) con
 }
 
 // Without branches and with all members in locals, so that it runs over four points at once.
-void CorrelationGrid::find_cells(const PointColumns& points_map_m,
-                                 std::vector<std::int32_t>& indices) const {
+void CorrelationGrid::find_cells(const PointColumns& points_map_m, GridCells& cells) const {
   const auto count = static_cast<std::size_t>(points_map_m.rows());
-  indices.resize(count);
+  cells.index.resize(count);
+  cells.block.resize(count);
   const double* const x_m = points_map_m.col(0).data();
   const double* const y_m = points_map_m.col(1).data();
   const double corner_x_m = corner_map_m_.x();
@@ -67,21 +67,24 @@ void CorrelationGrid::find_cells(const PointColumns& points_map_m,
   const std::int32_t first = border_;
   const std::int32_t end = side_ - border_;
   const std::int32_t stride = stride_;
-  std::int32_t* const out = indices.data();
+  const GridBlocks::Layout layout = blocks_.layout();
+  std::int32_t* const index = cells.index.data();
+  std::int32_t* const block = cells.block.data();
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t column = round_to_cell((x_m[i] - corner_x_m) / resolution_m);
     const std::int32_t row = round_to_cell((y_m[i] - corner_y_m) / resolution_m);
     const bool is_inner = (column >= first) & (column < end) & (row >= first) & (row < end);
-    out[i] = is_inner ? column + row * stride : kOutside;
+    index[i] = is_inner ? column + row * stride : 0;
+    block[i] = is_inner ? layout.block_of(row, column) : GridBlocks::kNowhere;
   }
 }
 
-void CorrelationGrid::occupy(std::span<const std::int32_t> indices) {
+void CorrelationGrid::occupy(const GridCells& found, std::size_t begin, std::size_t end) {
   const std::uint8_t* const grid = cells();
-  for (const std::int32_t index : indices) {
-    if (index == kOutside || grid[index] == kOccupied) continue;
-    remember_block(index);
-    stamp(index);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!blocks_.is_wanted(found.block[i]) || grid[found.index[i]] == kOccupied) continue;
+    blocks_.draw(found.block[i]);
+    stamp(found.index[i]);
   }
 }
 
@@ -95,29 +98,19 @@ void CorrelationGrid::stamp(std::int32_t centre_index) {
   }
 }
 
-void CorrelationGrid::remember_block(std::int32_t centre_index) {
-  const int row = centre_index / stride_;
-  const int column = centre_index - row * stride_;
-  const std::int32_t block =
-      (row >> kBlockShift_rows) * blocks_per_row_ + (column >> kBlockShift_columns);
-  std::uint8_t& is_drawn = is_drawn_[static_cast<std::size_t>(block)];
-  if (is_drawn != 0) return;
-  is_drawn = 1;
-  drawn_blocks_.push_back(block);
-}
-
-// The block's cells and what the kernel reaches around them.
+// The block's cells and what the kernel reaches around them, in whole chunks: a few cells more are
+// erased, or will be, with their own block.
 void CorrelationGrid::erase_block(std::int32_t block) {
-  is_drawn_[static_cast<std::size_t>(block)] = 0;
-  const int first_row = (block / blocks_per_row_) << kBlockShift_rows;
-  const int first_column = (block % blocks_per_row_) << kBlockShift_columns;
-  const int begin_row = std::max(first_row - kernel_.half_width, 0);
-  const int end_row = std::min(first_row + (1 << kBlockShift_rows) + kernel_.half_width, side_);
-  const int begin = std::max(first_column - kernel_.half_width, 0);
-  const int end = std::min(first_column + (1 << kBlockShift_columns) + kernel_.half_width, stride_);
-  std::uint8_t* const grid = bytes_.data() + kMargin;
-  for (int row = begin_row; row < end_row; ++row) {
-    std::memset(grid + row * stride_ + begin, 0, static_cast<std::size_t>(end - begin));
+  const Eigen::Vector2i first = blocks_.first_cell(block);
+  const int reach = kernel_.half_width;
+  const int end_row = std::min(first.y() + GridBlocks::kSide_cells + reach, side_);
+  const int begin = std::max(first.x() - reach, 0);
+  const int end = std::min(first.x() + GridBlocks::kSide_cells + reach, stride_);
+  for (int row = std::max(first.y() - reach, 0); row < end_row; ++row) {
+    std::uint8_t* const row_cells = bytes_.data() + kMargin + row * stride_;
+    for (int column = begin; column < end; column += kErasedAtOnce) {
+      std::memset(row_cells + column, 0, kErasedAtOnce);
+    }
   }
 }
 

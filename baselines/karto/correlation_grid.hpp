@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "baselines/karto/grid_blocks.hpp"
 #include "baselines/karto/smear_kernel.hpp"
 #include "baselines/karto/valid_points.hpp"
 
@@ -24,26 +25,36 @@ struct GridSpec {
   [[nodiscard]] int inner_side_cells() const;
 };
 
+// Cells of many points.
+struct GridCells {
+  std::vector<std::int32_t> index;  // linear
+  std::vector<std::int32_t> block;  // GridBlocks::kNowhere for a point outside the inner cells
+};
+
 // Cells are addressed by linear index = column + row * stride(), and only the linear index is
 // range-checked by those who look up, as in the original: stride() is the side padded to 8. A
 // border of the kernel's half width + 1 around the inner cells takes the smear.
+// Only what a search may read is drawn: between reset() and occupy() the search says around which
+// cells it is going to read.
 class CorrelationGrid {
  public:
-  explicit CorrelationGrid(const GridSpec& spec);
+  // A search reads at most `read_margin_cells` away, along rows and columns, from what it wants.
+  CorrelationGrid(const GridSpec& spec, int read_margin_cells);
 
-  // Empties the grid and moves its middle cell's centre to a point of the map.
+  // Empties the grid, moves its middle cell's centre to a point of the map, and wants nothing.
   void reset(const Eigen::Vector2d& centre_map_m);
-  // The linear index of each point's cell, kOutside for those beyond the inner cells.
-  void find_cells(const PointColumns& points_map_m, std::vector<std::int32_t>& indices) const;
-  static constexpr std::int32_t kOutside = -1;
-  // Sets each of these cells to kOccupied and stamps the kernel around it with max().
-  void occupy(std::span<const std::int32_t> indices);
+  [[nodiscard]] GridBlocks& blocks() { return blocks_; }
+  void find_cells(const PointColumns& points_map_m, GridCells& cells) const;
+  // Sets cells [begin, end) of those, if wanted, to kOccupied and stamps the kernel around each
+  // with max().
+  void occupy(const GridCells& cells, std::size_t begin, std::size_t end);
 
   [[nodiscard]] int side_cells() const { return side_; }
   [[nodiscard]] int stride() const { return stride_; }
   [[nodiscard]] std::int32_t num_cells() const { return side_ * stride_; }
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
 
+  [[nodiscard]] int middle_cell() const { return (side_ - 1) / 2; }  // column and row
   // Nearest cell (column, row); may lie outside.
   [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& point_map_m) const;
   [[nodiscard]] std::int32_t linear_index(const Eigen::Vector2i& cell) const {
@@ -54,12 +65,7 @@ class CorrelationGrid {
   static constexpr int kMargin = 64;
 
  private:
-  // What a reset erases at once: the stamps around all cells of one block.
-  static constexpr int kBlockShift_rows = 5;
-  static constexpr int kBlockShift_columns = 6;
-
   void stamp(std::int32_t centre_index);
-  void remember_block(std::int32_t centre_index);
   void erase_block(std::int32_t block);
 
   double resolution_m_;
@@ -69,9 +75,7 @@ class CorrelationGrid {
   int stride_;
   Eigen::Vector2d corner_map_m_ = Eigen::Vector2d::Zero();  // centre of cell (0, 0)
   std::vector<std::uint8_t> bytes_;
-  int blocks_per_row_;
-  std::vector<std::uint8_t> is_drawn_;  // by block: it has occupied cells
-  std::vector<std::int32_t> drawn_blocks_;
+  GridBlocks blocks_;
 };
 
 }  // namespace corridor::karto

@@ -13,8 +13,21 @@ constexpr double kNoResponse = 1e-6;
 // Neighbouring beams mostly find or miss the same surface. Taken in this stride, the first few say
 // more about the rest.
 constexpr std::size_t kBeamStride = 8;
+// Cells that an end point may move between two headings of the coarse search, of which the fine
+// search tries all that lie between: at 1 cm, half a step of 2 deg at 12.6 m.
+constexpr int kTurnMargin_cells = 22;
+// Cells by which the search leaves its window: the lattice ends one beyond, the fine search goes
+// one farther, centre and lattice are rounded.
+constexpr int kLatticeMargin_cells = 4;
+// A search whose beams move farther than this many margins may read anywhere.
+constexpr int kMaxTurnsPerStep = 64;
 // Multiples of the coarse half width that a response expansion tries.
 constexpr std::array<int, 3> kExpansions = {2, 3, 4};
+
+int read_margin_cells(const GridSpec& spec) {
+  const double half_window_cells = std::ceil(0.5 * spec.window_m / spec.resolution_m);
+  return static_cast<int>(half_window_cells) + kLatticeMargin_cells + kTurnMargin_cells;
+}
 
 Pose2 moved(const Pose2& centre, const SearchOffset& offset) {
   return {centre.x_m() + offset.position_m.x(), centre.y_m() + offset.position_m.y(),
@@ -27,38 +40,37 @@ CorrelativeMatcher::CorrelativeMatcher(const GridSpec& spec, const KartoParams& 
     : params_(params),
       window_m_(spec.window_m),
       edge_rule_(params.wrap_rows ? EdgeRule::kWrap : EdgeRule::kStop),
-      grid_(spec) {}
+      grid_(spec, read_margin_cells(spec)) {}
 
 MatchResult CorrelativeMatcher::match(const KeyScan& scan, const Pose2& T_map_sensor_predicted,
                                       std::span<const KeyScan* const> local_map,
                                       const MatchOptions& options) {
-  grid_.reset(T_map_sensor_predicted.translation_m());
-  draw_local_map(T_map_sensor_predicted.translation_m(), local_map);
-  select_beams(scan);
+  const Eigen::Vector2d centre_m = T_map_sensor_predicted.translation_m();
+  const SearchAxis heading_rad = coarse_stage(params_.coarse_angle_offset_rad).heading_rad;
+  grid_.reset(centre_m);
+  select_beams(scan, may_give_up(options) ? kBeamStride : 1);
+  aim(T_map_sensor_predicted.theta_rad(), heading_rad);
+  want_cells_around_beams(T_map_sensor_predicted.theta_rad(), heading_rad);
+  draw_local_map(centre_m, local_map);
   MatchResult result = coarse_search(T_map_sensor_predicted, options);
   if (options.use_refinement) result = refine(result, options.use_penalty);
   result.response = std::min(result.response, 1.0);
   return result;
 }
 
-void CorrelativeMatcher::draw_local_map(const Eigen::Vector2d& viewpoint_m,
-                                        std::span<const KeyScan* const> local_map) {
-  for (const KeyScan* scan : local_map) {
-    grid_.find_cells(scan->points_map_m(), cells_);
-    for (const SurfacePiece& piece : scan->surface_map()) {
-      if (!piece.faces(viewpoint_m)) continue;
-      grid_.occupy(std::span(cells_).subspan(piece.begin, piece.end - piece.begin));
-    }
-  }
+CorrelativeMatcher::Stage CorrelativeMatcher::coarse_stage(double half_width_rad) const {
+  return {{0.5 * window_m_, kCoarseStep_cells * grid_.resolution_m()},
+          {half_width_rad, params_.coarse_angle_resolution_rad},
+          kCoarseStep_cells};
 }
 
-void CorrelativeMatcher::select_beams(const KeyScan& scan) {
+void CorrelativeMatcher::select_beams(const KeyScan& scan, std::size_t stride) {
   const std::vector<Eigen::Vector2d>& beams_m = scan.beams_sensor_m();
   beams_sensor_m_.resize(static_cast<Eigen::Index>(beams_m.size()), 2);
   Eigen::Index num_finite = 0;
   std::size_t num_counted = 0;
-  for (std::size_t first = 0; first < kBeamStride; ++first) {
-    for (std::size_t i = first; i < beams_m.size(); i += kBeamStride) {
+  for (std::size_t first = 0; first < stride; ++first) {
+    for (std::size_t i = first; i < beams_m.size(); i += stride) {
       if (!params_.count_no_returns && !scan.is_in_range()[i]) continue;
       ++num_counted;
       if (beams_m[i].allFinite()) beams_sensor_m_.row(num_finite++) = beams_m[i].transpose();
@@ -68,25 +80,92 @@ void CorrelativeMatcher::select_beams(const KeyScan& scan) {
   full_response_ = static_cast<double>(std::max<std::size_t>(num_counted, 1)) * kOccupied;
 }
 
+// The beams' end points at all headings of a search.
+void CorrelativeMatcher::aim(double centre_rad, const SearchAxis& heading_rad) {
+  num_headings_ = static_cast<std::size_t>(heading_rad.count());
+  if (headings_.size() < num_headings_) headings_.resize(num_headings_);
+  for (std::size_t i = 0; i < num_headings_; ++i) {
+    fill_beam_offsets(beams_sensor_m_, centre_rad + heading_rad.offset(static_cast<int>(i)), grid_,
+                      headings_[i].offsets);
+  }
+}
+
+// Coarse and fine search read the cells around the end points of the coarse headings, and of those
+// in between. A search that widens may turn anywhere.
+void CorrelativeMatcher::want_cells_around_beams(double centre_rad, const SearchAxis& heading_rad) {
+  GridBlocks& blocks = grid_.blocks();
+  if (params_.use_response_expansion) return blocks.want_all();
+  const int middle = grid_.middle_cell();
+  for (std::size_t i = 0; i < num_headings_; ++i) {
+    for (const BeamOffset& offset : headings_[i].offsets) {
+      blocks.want(middle + offset.row, middle + offset.column);
+    }
+  }
+  want_cells_of_far_beams(centre_rad, heading_rad);
+  blocks.add_margin();
+}
+
+// Beams so long that half a step of heading moves their ends by more than the margin; they have no
+// return, but rows that wrap lead them back into the grid. More headings in between.
+void CorrelativeMatcher::want_cells_of_far_beams(double centre_rad, const SearchAxis& heading_rad) {
+  const Eigen::ArrayXd move_cells =
+      beams_sensor_m_.rowwise().norm().array() * (heading_rad.step / grid_.resolution_m());
+  PointColumns far_m(beams_sensor_m_.rows(), 2);
+  Eigen::Index num_far = 0;
+  double largest_move_cells = 0;
+  for (Eigen::Index i = 0; i < move_cells.size(); ++i) {
+    if (move_cells[i] <= 2 * kTurnMargin_cells) continue;
+    far_m.row(num_far++) = beams_sensor_m_.row(i);
+    largest_move_cells = std::max(largest_move_cells, move_cells[i]);
+  }
+  if (num_far == 0) return;
+  far_m.conservativeResize(num_far, 2);
+  if (largest_move_cells > 2 * kTurnMargin_cells * kMaxTurnsPerStep) {
+    return grid_.blocks().want_all();
+  }
+  const int num_turns = static_cast<int>(std::ceil(largest_move_cells / (2 * kTurnMargin_cells)));
+  const int middle = grid_.middle_cell();
+  std::vector<BeamOffset> offsets;
+  for (int i = 0; i < num_turns * heading_rad.count(); ++i) {
+    // The middle of each part of the range that begins half a step before the first heading.
+    const double offset_rad =
+        heading_rad.offset(0) + heading_rad.step * ((i + 0.5) / num_turns - 0.5);
+    fill_beam_offsets(far_m, centre_rad + offset_rad, grid_, offsets);
+    for (const BeamOffset& offset : offsets) {
+      grid_.blocks().want(middle + offset.row, middle + offset.column);
+    }
+  }
+}
+
+void CorrelativeMatcher::draw_local_map(const Eigen::Vector2d& viewpoint_m,
+                                        std::span<const KeyScan* const> local_map) {
+  for (const KeyScan* scan : local_map) {
+    grid_.find_cells(scan->points_map_m(), cells_);
+    for (const SurfacePiece& piece : scan->surface_map()) {
+      if (!piece.faces(viewpoint_m)) continue;
+      grid_.occupy(cells_, piece.begin, piece.end);
+    }
+  }
+}
+
 MatchResult CorrelativeMatcher::coarse_search(const Pose2& centre, const MatchOptions& options) {
   const double half_width_rad = params_.coarse_angle_offset_rad;
-  MatchResult result = search_coarse_once(centre, half_width_rad, options);
+  MatchResult result = search_coarse_once(centre, coarse_stage(half_width_rad), options);
   if (!params_.use_response_expansion) return result;
   for (const int multiple : kExpansions) {
     if (result.response > kNoResponse) break;
-    result = search_coarse_once(centre, multiple * half_width_rad, options);
+    const Stage wider = coarse_stage(multiple * half_width_rad);
+    aim(centre.theta_rad(), wider.heading_rad);
+    result = search_coarse_once(centre, wider, options);
   }
   return result;
 }
 
-MatchResult CorrelativeMatcher::search_coarse_once(const Pose2& centre, double half_width_rad,
+// Requires headings aimed.
+MatchResult CorrelativeMatcher::search_coarse_once(const Pose2& centre, const Stage& stage,
                                                    const MatchOptions& options) {
-  const double resolution_rad = params_.coarse_angle_resolution_rad;
-  const Stage stage{{0.5 * window_m_, kCoarseStep_cells * grid_.resolution_m()},
-                    {half_width_rad, resolution_rad},
-                    kCoarseStep_cells};
   MatchResult result;
-  sum_up(centre, stage, min_sum(options));
+  sweep_stage(centre, stage, min_sum(options));
   if (min_sum(options) > 0) {
     result.response = best_unpenalised_response();
     if (result.response <= options.min_response) return result;
@@ -96,16 +175,20 @@ MatchResult CorrelativeMatcher::search_coarse_once(const Pose2& centre, double h
   const SearchOffset best = mean_best_offset(table, result.response);
   result.T_map_sensor = moved(centre, best);
   result.covariance_map.topLeftCorner<2, 2>() = positional_covariance(table, result.response, best);
-  result.covariance_map(2, 2) = 4 * resolution_rad * resolution_rad;
+  result.covariance_map(2, 2) = 4 * stage.heading_rad.step * stage.heading_rad.step;
   return result;
 }
 
-// Everything that shapes the covariance of a match that is taken must be exact. A widened search
-// has to know that there was no response at all, and refinement may raise it.
+// Refinement may raise a response, and a widened search has to know that there was none at all.
+bool CorrelativeMatcher::may_give_up(const MatchOptions& options) const {
+  return !options.use_refinement && !params_.use_response_expansion &&
+         options.min_response > kResponseMargin;
+}
+
+// Everything that shapes the covariance of a match that is taken must be exact.
 std::uint32_t CorrelativeMatcher::min_sum(const MatchOptions& options) const {
-  if (options.use_refinement || params_.use_response_expansion) return 0;
-  const double needed = (options.min_response - kResponseMargin) * full_response_;
-  return static_cast<std::uint32_t>(std::max(needed - 1, 0.0));
+  if (!may_give_up(options)) return 0;
+  return static_cast<std::uint32_t>((options.min_response - kResponseMargin) * full_response_);
 }
 
 MatchResult CorrelativeMatcher::refine(const MatchResult& coarse, bool use_penalty) {
@@ -113,7 +196,8 @@ MatchResult CorrelativeMatcher::refine(const MatchResult& coarse, bool use_penal
                     {0.5 * params_.coarse_angle_resolution_rad, params_.fine_angle_resolution_rad},
                     1};
   const Pose2 centre = coarse.T_map_sensor;
-  sum_up(centre, stage, 0);
+  aim(centre.theta_rad(), stage.heading_rad);
+  sweep_stage(centre, stage, 0);
   const ResponseTable table = responses(stage, use_penalty);
   MatchResult result = coarse;
   result.response = table.best_response();
@@ -124,20 +208,21 @@ MatchResult CorrelativeMatcher::refine(const MatchResult& coarse, bool use_penal
   return result;
 }
 
-void CorrelativeMatcher::sum_up(const Pose2& centre, const Stage& stage, std::uint32_t min_sum) {
+void CorrelativeMatcher::sweep_stage(const Pose2& centre, const Stage& stage,
+                                     std::uint32_t min_sum) {
   const Eigen::Vector2i first =
       grid_.cell_of(centre.translation_m() + Eigen::Vector2d::Constant(stage.position_m.offset(0)));
-  const SweepWindow window{first.x(), first.y(), stage.step_cells, stage.position_m.count()};
-  const auto num_headings = static_cast<std::size_t>(stage.heading_rad.count());
-  if (headings_.size() < num_headings) headings_.resize(num_headings);
-  sums_.resize(num_headings * window.num_positions());
-  for (std::size_t i = 0; i < num_headings; ++i) {
-    Heading& heading = headings_[i];
-    const double offset_rad = stage.heading_rad.offset(static_cast<int>(i));
-    fill_beam_offsets(beams_sensor_m_, centre.theta_rad() + offset_rad, grid_, heading.offsets);
-    heading.sweep.run(grid_, heading.offsets, window, edge_rule_, min_sum,
-                      std::span(sums_).subspan(i * window.num_positions(), window.num_positions()));
+  sweep({first.x(), first.y(), stage.step_cells, stage.position_m.count()}, min_sum);
+}
+
+void CorrelativeMatcher::sweep(const SweepWindow& window, std::uint32_t min_sum) {
+  const std::size_t num_positions = window.num_positions();
+  sums_.resize(num_headings_ * num_positions);
+  const std::span<HeadingSweep> headings = std::span(headings_).first(num_headings_);
+  for (std::size_t i = 0; i < num_headings_; ++i) {
+    headings[i].sums = std::span(sums_).subspan(i * num_positions, num_positions);
   }
+  sweep_window(grid_, window, edge_rule_, min_sum, headings);
 }
 
 double CorrelativeMatcher::best_unpenalised_response() const {
@@ -176,14 +261,9 @@ void CorrelativeMatcher::apply_penalty(ResponseTable& table) const {
 double CorrelativeMatcher::variance_of_heading(const Pose2& centre, const SearchAxis& heading_rad,
                                                const SearchOffset& best, double best_response) {
   const Eigen::Vector2i cell = grid_.cell_of(centre.translation_m() + best.position_m);
-  const SweepWindow window{cell.x(), cell.y(), 1, 1};
+  sweep({cell.x(), cell.y(), 1, 1}, 0);
   std::vector<double> responses;
-  for (int i = 0; i < heading_rad.count(); ++i) {
-    Heading& heading = headings_[static_cast<std::size_t>(i)];
-    std::uint32_t sum = 0;
-    heading.sweep.run(grid_, heading.offsets, window, edge_rule_, 0, {&sum, 1});
-    responses.push_back(sum / full_response_);
-  }
+  for (const std::uint32_t sum : sums_) responses.push_back(sum / full_response_);
   const double coarse_rad = params_.coarse_angle_resolution_rad;
   return heading_variance(responses, heading_rad, best_response, best.heading_rad,
                           4 * coarse_rad * coarse_rad);

@@ -45,21 +45,21 @@ class CorrelativeMatcher {
     int step_cells;
   };
 
-  // What one heading of a search needs; kept from one to the next.
-  struct Heading {
-    std::vector<BeamOffset> offsets;
-    WindowSweep sweep;
-  };
-
+  [[nodiscard]] Stage coarse_stage(double half_width_rad) const;
+  void select_beams(const KeyScan& scan, std::size_t stride);
+  void aim(double centre_rad, const SearchAxis& heading_rad);
+  void want_cells_around_beams(double centre_rad, const SearchAxis& heading_rad);
+  void want_cells_of_far_beams(double centre_rad, const SearchAxis& heading_rad);
   void draw_local_map(const Eigen::Vector2d& viewpoint_m,
                       std::span<const KeyScan* const> local_map);
-  void select_beams(const KeyScan& scan);
   MatchResult coarse_search(const Pose2& centre, const MatchOptions& options);
-  MatchResult search_coarse_once(const Pose2& centre, double half_width_rad,
+  MatchResult search_coarse_once(const Pose2& centre, const Stage& stage,
                                  const MatchOptions& options);
   MatchResult refine(const MatchResult& coarse, bool use_penalty);
+  [[nodiscard]] bool may_give_up(const MatchOptions& options) const;
   [[nodiscard]] std::uint32_t min_sum(const MatchOptions& options) const;
-  void sum_up(const Pose2& centre, const Stage& stage, std::uint32_t min_sum);
+  void sweep(const SweepWindow& window, std::uint32_t min_sum);
+  void sweep_stage(const Pose2& centre, const Stage& stage, std::uint32_t min_sum);
   [[nodiscard]] double best_unpenalised_response() const;
   [[nodiscard]] ResponseTable responses(const Stage& stage, bool use_penalty) const;
   void apply_penalty(ResponseTable& table) const;
@@ -70,10 +70,11 @@ class CorrelativeMatcher {
   double window_m_;
   EdgeRule edge_rule_;
   CorrelationGrid grid_;
-  std::vector<std::int32_t> cells_;  // of the points of one scan
-  PointColumns beams_sensor_m_;      // end points to look up
-  double full_response_ = 1;         // sum that would be a response of 1
-  std::vector<Heading> headings_;
+  GridCells cells_;                     // of the points of one scan
+  PointColumns beams_sensor_m_;         // end points to look up
+  double full_response_ = 1;            // sum that would be a response of 1
+  std::vector<HeadingSweep> headings_;  // the first num_headings_ are in use
+  std::size_t num_headings_ = 0;
   std::vector<std::uint32_t> sums_;  // by heading, then by position
 };
 

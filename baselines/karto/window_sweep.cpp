@@ -14,10 +14,10 @@ namespace {
 constexpr int kBytes = 32;          // of one vector
 constexpr int kLanes = kBytes / 2;  // 16-bit sums in it
 constexpr int kTileRows = 4;        // rows of positions that are summed at once
-// Between two looks at whether a tile can still reach the sum that is asked for, if one is.
-constexpr std::size_t kBeamsPerLook = 32;
-// As many as a 16-bit sum can hold.
-constexpr std::size_t kMaxBeamsPerLook = std::numeric_limits<std::uint16_t>::max() / kOccupied;
+// Beams between two looks at whether a tile can still reach the sum that is asked for; as many go
+// through all headings at once where none is.
+constexpr std::size_t kBeamsPerChunk = 32;
+static_assert(kBeamsPerChunk * kOccupied <= std::numeric_limits<std::uint16_t>::max());
 // A pair of bytes is read as one 16-bit lane: its first byte is the low one.
 constexpr std::uint16_t kLowByte = 0xff;
 constexpr int kByteBits = 8;
@@ -81,25 +81,29 @@ struct TileSums {
 
 class Sweep {
  public:
-  Sweep(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
-        std::span<std::uint32_t> sums)
-      : grid_(grid), window_(window), edge_rule_(edge_rule), sums_(sums) {}
+  Sweep(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule)
+      : grid_(grid), window_(window), edge_rule_(edge_rule) {}
 
-  void run(std::span<const BeamOffset> offsets, std::uint32_t min_sum,
-           std::vector<std::int32_t>& inner) {
-    std::fill(sums_.begin(), sums_.end(), 0);
-    inner.clear();
-    for (const BeamOffset& offset : offsets) {
+  // Sums what has to be checked and collects what need not.
+  void start(HeadingSweep& heading) const {
+    CORRIDOR_EXPECT(heading.sums.size() == window_.num_positions());
+    std::fill(heading.sums.begin(), heading.sums.end(), 0);
+    heading.inner.clear();
+    for (const BeamOffset& offset : heading.offsets) {
       if (is_inner(offset)) {
-        inner.push_back(offset.linear);
+        heading.inner.push_back(offset.linear);
       } else {
-        add_checked(offset);
+        add_checked(offset, heading.sums.data());
       }
     }
+  }
+
+  // Adds beams to all positions, tile by tile; gives tiles up that cannot reach min_sum.
+  void add(std::span<const std::int32_t> beams, std::uint32_t min_sum, std::uint32_t* sums) const {
     if (window_.step_cells == 1) {
-      add_tiles<1>(inner, min_sum);
+      add_tiles<1>(beams, min_sum, sums);
     } else {
-      add_tiles<2>(inner, min_sum);
+      add_tiles<2>(beams, min_sum, sums);
     }
   }
 
@@ -124,7 +128,7 @@ class Sweep {
   }
 
   // A beam that leaves the grid somewhere in the window: only its readable positions, row by row.
-  void add_checked(const BeamOffset& offset) {
+  void add_checked(const BeamOffset& offset, std::uint32_t* sums) const {
     if (highest_index(offset) < 0 || lowest_index(offset) >= grid_.num_cells()) return;
     const std::int64_t column = std::int64_t{window_.first_column} + offset.column;
     const IndexSpan in_columns = edge_rule_ == EdgeRule::kStop
@@ -135,7 +139,8 @@ class Sweep {
       const IndexSpan in_memory = positions_within(first, grid_.num_cells());
       const int end = std::min(in_columns.end, in_memory.end);
       for (int i = std::max(in_columns.begin, in_memory.begin); i < end; ++i) {
-        sums_of(row)[i] += grid_.cells()[first + std::int64_t{window_.step_cells} * i];
+        sums[row * window_.count + i] +=
+            grid_.cells()[first + std::int64_t{window_.step_cells} * i];
       }
     }
   }
@@ -160,63 +165,73 @@ class Sweep {
   }
 
   template <int kStep>
-  void add_tiles(std::span<const std::int32_t> beams, std::uint32_t min_sum) {
+  void add_tiles(std::span<const std::int32_t> beams, std::uint32_t min_sum,
+                 std::uint32_t* sums) const {
     int row = 0;
     for (; row + kTileRows <= window_.count; row += kTileRows) {
-      add_tile_row<kStep, kTileRows>(beams, row, min_sum);
+      add_tile_row<kStep, kTileRows>(beams, row, min_sum, sums);
     }
-    if (row + 3 == window_.count) return add_tile_row<kStep, 3>(beams, row, min_sum);
-    for (; row < window_.count; ++row) add_tile_row<kStep, 1>(beams, row, min_sum);
+    if (row + 3 == window_.count) return add_tile_row<kStep, 3>(beams, row, min_sum, sums);
+    for (; row < window_.count; ++row) add_tile_row<kStep, 1>(beams, row, min_sum, sums);
   }
 
   template <int kStep, int kRows>
-  void add_tile_row(std::span<const std::int32_t> beams, int row, std::uint32_t min_sum) {
+  void add_tile_row(std::span<const std::int32_t> beams, int row, std::uint32_t min_sum,
+                    std::uint32_t* sums) const {
     constexpr int kColumns = TileSums<kStep, kRows>::kColumns;
     for (int column = 0; column < window_.count; column += kColumns) {
-      add_tile<kStep, kRows>(beams, row, column, min_sum);
+      add_tile<kStep, kRows>(beams, row, column, min_sum, sums);
     }
   }
 
   template <int kStep, int kRows>
   void add_tile(std::span<const std::int32_t> beams, int first_row, int first_column,
-                std::uint32_t min_sum) {
+                std::uint32_t min_sum, std::uint32_t* sums) const {
     const std::uint8_t* const cells = grid_.cells() + index_of(first_row) + kStep * first_column;
     const std::ptrdiff_t row_bytes = std::ptrdiff_t{kStep} * grid_.stride();
     const int count = std::min(TileSums<kStep, kRows>::kColumns, window_.count - first_column);
-    const std::size_t beams_per_look = min_sum > 0 ? kBeamsPerLook : kMaxBeamsPerLook;
     while (!beams.empty()) {
-      const std::size_t num_beams = std::min(beams.size(), beams_per_look);
+      const std::size_t num_beams = std::min(beams.size(), kBeamsPerChunk);
       TileSums<kStep, kRows> tile;
       tile.add(cells, row_bytes, beams.first(num_beams));
       beams = beams.subspan(num_beams);
       std::uint32_t largest = 0;
       for (int row = 0; row < kRows; ++row) {
-        std::uint32_t* const sums = sums_of(first_row + row) + first_column;
-        tile.flush(row, count, sums);
-        largest = std::max(largest, *std::max_element(sums, sums + count));
+        std::uint32_t* const row_sums = sums + (first_row + row) * window_.count + first_column;
+        tile.flush(row, count, row_sums);
+        largest = std::max(largest, *std::max_element(row_sums, row_sums + count));
       }
       if (largest + kOccupied * beams.size() < min_sum) return;
     }
   }
 
-  [[nodiscard]] std::uint32_t* sums_of(int row) {
-    return sums_.data() + static_cast<std::ptrdiff_t>(row) * window_.count;
-  }
-
   const CorrelationGrid& grid_;
   const SweepWindow& window_;
   EdgeRule edge_rule_;
-  std::span<std::uint32_t> sums_;
 };
 
 }  // namespace
 
-void WindowSweep::run(const CorrelationGrid& grid, std::span<const BeamOffset> offsets,
-                      const SweepWindow& window, EdgeRule edge_rule, std::uint32_t min_sum,
-                      std::span<std::uint32_t> sums) {
+// Neighbouring headings look up neighbouring cells: without a bound, a few beams go through all of
+// them before the next few, so that the cells stay in the first-level cache.
+void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
+                  std::uint32_t min_sum, std::span<HeadingSweep> headings) {
   CORRIDOR_EXPECT(window.step_cells == 1 || window.step_cells == 2);
-  CORRIDOR_EXPECT(sums.size() == window.num_positions());
-  Sweep(grid, window, edge_rule, sums).run(offsets, min_sum, inner_);
+  const Sweep sweep(grid, window, edge_rule);
+  std::size_t most_beams = 0;
+  for (HeadingSweep& heading : headings) {
+    sweep.start(heading);
+    if (min_sum > 0) sweep.add(heading.inner, min_sum, heading.sums.data());
+    most_beams = std::max(most_beams, heading.inner.size());
+  }
+  if (min_sum > 0) return;
+  for (std::size_t begin = 0; begin < most_beams; begin += kBeamsPerChunk) {
+    for (HeadingSweep& heading : headings) {
+      if (begin >= heading.inner.size()) continue;
+      const std::size_t count = std::min(kBeamsPerChunk, heading.inner.size() - begin);
+      sweep.add(std::span(heading.inner).subspan(begin, count), 0, heading.sums.data());
+    }
+  }
 }
 
 }  // namespace corridor::karto

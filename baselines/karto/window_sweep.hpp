@@ -28,19 +28,19 @@ enum class EdgeRule {
   kStop,  // the column is checked as well: such a beam reads nothing
 };
 
-// Sweeps windows; keeps its scratch memory from one to the next.
-class WindowSweep {
- public:
-  // sums[j * count + i] = sum over beams of the grid's value at position (i, j) plus offset, exact
-  // where it is at least `min_sum`. A smaller one may be reported too small: such positions are
-  // given up once their remaining beams cannot lift them to min_sum. sums has num_positions()
-  // elements.
-  void run(const CorrelationGrid& grid, std::span<const BeamOffset> offsets,
-           const SweepWindow& window, EdgeRule edge_rule, std::uint32_t min_sum,
-           std::span<std::uint32_t> sums);
-
- private:
-  std::vector<std::int32_t> inner_;  // beams that may be read at every position
+// One heading of a search: what to look up, and the sums it gives. Kept from one search to the
+// next for its memory.
+struct HeadingSweep {
+  std::vector<BeamOffset> offsets;
+  std::span<std::uint32_t> sums;
+  std::vector<std::int32_t> inner;  // scratch: beams that may be read at every position
 };
+
+// For each heading sums[j * count + i] = sum over its beams of the grid's value at position (i, j)
+// plus offset, exact where it is at least `min_sum`. A smaller one may come out too small: such
+// positions are given up once their remaining beams cannot lift them to min_sum. Every `sums` has
+// num_positions() elements.
+void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
+                  std::uint32_t min_sum, std::span<HeadingSweep> headings);
 
 }  // namespace corridor::karto
