@@ -39,8 +39,12 @@ double range_threshold_of(const KartoParams& params, const RobotModel& robot,
 class KartoSlam::Impl {
  public:
   Impl(const KartoParams& params, const RobotModel& robot,
-       std::unique_ptr<backend::BackEnd> back_end, StageClock& clock)
-      : params_(params), robot_(robot), back_end_(std::move(back_end)), clock_(clock) {
+       std::unique_ptr<backend::BackEnd> back_end, int num_threads, StageClock& clock)
+      : params_(params),
+        robot_(robot),
+        back_end_(std::move(back_end)),
+        num_threads_(num_threads),
+        clock_(clock) {
     CORRIDOR_EXPECT(back_end_ != nullptr);
     CORRIDOR_EXPECT(param_violations(params).empty());
   }
@@ -114,7 +118,7 @@ class KartoSlam::Impl {
     }
     if (!mapper_) {
       mapper_.emplace(params_, range_threshold_m_, PoseGraph(std::move(back_end_), *T_map_start_),
-                      clock_);
+                      clock_, num_threads_);
     } else if (!is_key_scan(mapper_->scans().back(), *candidate, params_)) {
       return;
     } else {
@@ -185,6 +189,7 @@ class KartoSlam::Impl {
   KartoParams params_;
   RobotModel robot_;
   std::unique_ptr<backend::BackEnd> back_end_;
+  int num_threads_;
   StageClock& clock_;
   motion::WheelTrack wheels_;
   std::optional<Pose2> T_odom_base_;
@@ -200,8 +205,9 @@ class KartoSlam::Impl {
 };
 
 KartoSlam::KartoSlam(const KartoParams& params, const RobotModel& robot,
-                     std::unique_ptr<backend::BackEnd> back_end)
-    : impl_(std::make_unique<Impl>(params, robot, std::move(back_end), stage_clock())) {}
+                     std::unique_ptr<backend::BackEnd> back_end, int num_threads)
+    : impl_(
+          std::make_unique<Impl>(params, robot, std::move(back_end), num_threads, stage_clock())) {}
 
 KartoSlam::~KartoSlam() = default;
 
@@ -224,8 +230,9 @@ const graph::Values& KartoSlam::solved_values() const {
 }
 
 std::unique_ptr<SlamSystem> make_karto(const KartoParams& params, const RobotModel& robot,
-                                       std::unique_ptr<backend::BackEnd> back_end) {
-  return std::make_unique<KartoSlam>(params, robot, std::move(back_end));
+                                       std::unique_ptr<backend::BackEnd> back_end,
+                                       int num_threads) {
+  return std::make_unique<KartoSlam>(params, robot, std::move(back_end), num_threads);
 }
 
 }  // namespace corridor::karto

@@ -17,10 +17,11 @@ namespace corridor::karto {
 // "unusable_scans".
 class KartoSlam final : public SlamSystem, public graph::GraphSource {
  public:
-  // `params` must have no violations; requires back_end. Only the LiDAR's limit is read from
+  // `params` must have no violations; requires back_end and num_threads >= 1, on which the estimate
+  // does not depend. Only the LiDAR's limit is read from
   // `robot`.
   KartoSlam(const KartoParams& params, const RobotModel& robot,
-            std::unique_ptr<backend::BackEnd> back_end);
+            std::unique_ptr<backend::BackEnd> back_end, int num_threads);
   ~KartoSlam() override;
 
   [[nodiscard]] std::string_view name() const override { return "karto"; }
@@ -36,6 +37,6 @@ class KartoSlam final : public SlamSystem, public graph::GraphSource {
 };
 
 std::unique_ptr<SlamSystem> make_karto(const KartoParams& params, const RobotModel& robot,
-                                       std::unique_ptr<backend::BackEnd> back_end);
+                                       std::unique_ptr<backend::BackEnd> back_end, int num_threads);
 
 }  // namespace corridor::karto

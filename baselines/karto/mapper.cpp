@@ -1,8 +1,11 @@
 #include "baselines/karto/mapper.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <utility>
 
 #include "baselines/karto/running_buffer.hpp"
+#include "slam/core/expect.hpp"
 
 namespace corridor::karto {
 namespace {
@@ -28,14 +31,21 @@ bool is_usable(backend::SolveStatus status) {
 }  // namespace
 
 Mapper::Mapper(const KartoParams& params, double range_threshold_m, PoseGraph pose_graph,
-               StageClock& clock)
+               StageClock& clock, int num_threads)
     : params_(params),
       clock_(clock),
-      sequential_matcher_(sequential_grid(params, range_threshold_m), params),
+      arena_(num_threads),
+      sequential_matchers_(sequential_grid(params, range_threshold_m), params),
       loop_matcher_(loop_grid(params, range_threshold_m), params),
-      pose_graph_(std::move(pose_graph)) {}
+      pose_graph_(std::move(pose_graph)) {
+  CORRIDOR_EXPECT(num_threads >= 1);
+}
 
 void Mapper::add(KeyScan scan) {
+  arena_.execute([&] { add_in_arena(std::move(scan)); });
+}
+
+void Mapper::add_in_arena(KeyScan scan) {
   scan.id = static_cast<KeyScanId>(scans_.size());
   scans_.push_back(std::move(scan));
   references_m_.push_back(newest().reference_map_m());
@@ -55,7 +65,7 @@ PoseWithCovariance Mapper::match_with_buffer() {
   const auto in_stage = clock_.enter(Stage::kMatch);
   ++counters_.sequential_matches;
   const MatchResult result =
-      match(sequential_matcher_, newest().T_map_sensor(), buffer_, kSequential);
+      match(sequential_matchers_.local(), newest().T_map_sensor(), buffer_, kSequential);
   return {result.T_map_sensor, result.covariance_map};
 }
 
@@ -81,16 +91,27 @@ void Mapper::link_with_near_chains(std::vector<PoseWithCovariance>& estimates) {
   const std::vector<Chain> chains =
       near_chains(links_, references_m_, newest().id, params_.link_max_distance_m,
                   params_.loop_min_chain_scans);
-  for (const Chain& chain : chains) {
-    const auto in_stage = clock_.enter(Stage::kMatch);
+  const std::vector<MatchResult> results = match_with(chains);
+  for (std::size_t i = 0; i < chains.size(); ++i) {
     ++counters_.near_chain_matches;
-    const MatchResult result =
-        match(sequential_matcher_, newest().T_map_sensor(), chain, kNearChain);
-    if (!(result.response > params_.link_min_response)) continue;
-    estimates.push_back({result.T_map_sensor, result.covariance_map});
-    link_with_closest(chain, estimates.back());
+    if (!(results[i].response > params_.link_min_response)) continue;
+    estimates.push_back({results[i].T_map_sensor, results[i].covariance_map});
+    link_with_closest(chains[i], estimates.back());
     ++counters_.near_chain_links;
   }
+}
+
+// A thread that waits for the headings of its match must not begin another with the same matcher.
+std::vector<MatchResult> Mapper::match_with(const std::vector<Chain>& chains) {
+  const auto in_stage = clock_.enter(Stage::kMatch);
+  std::vector<MatchResult> results(chains.size());
+  tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t i) {
+    tbb::this_task_arena::isolate([&] {
+      results[i] =
+          match(sequential_matchers_.local(), newest().T_map_sensor(), chains[i], kNearChain);
+    });
+  });
+  return results;
 }
 
 void Mapper::link(KeyScanId from, const PoseWithCovariance& matched) {
@@ -135,7 +156,8 @@ bool Mapper::try_loop(const Chain& chain) {
                            coarse.covariance_map(1, 1) < params_.loop_max_variance_coarse_m2;
   if (!is_accepted) return false;
   ++counters_.fine_loop_matches;
-  const MatchResult fine = match(sequential_matcher_, coarse.T_map_sensor, chain, kLoopFine);
+  const MatchResult fine =
+      match(sequential_matchers_.local(), coarse.T_map_sensor, chain, kLoopFine);
   if (fine.response < params_.loop_min_response_fine) return false;
   ++counters_.loop_closures;
   move(newest(), fine.T_map_sensor);
@@ -168,7 +190,7 @@ void Mapper::move(KeyScan& scan, const Pose2& T_map_sensor) {
 }
 
 MatchResult Mapper::match(CorrelativeMatcher& matcher, const Pose2& T_map_sensor_predicted,
-                          const Chain& local_map, const MatchOptions& options) {
+                          const Chain& local_map, const MatchOptions& options) const {
   std::vector<const KeyScan*> scans;
   for (KeyScanId id = local_map.first; id <= local_map.last; ++id) scans.push_back(&scans_[id]);
   return matcher.match(newest(), T_map_sensor_predicted, scans, options);

@@ -3,6 +3,9 @@
 // happens in between is KartoSlam's.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
+
 #include <memory>
 #include <vector>
 
@@ -27,9 +30,10 @@ struct MapperCounters {
 
 class Mapper {
  public:
-  // range_threshold_m sizes the grids. `clock` must outlive the mapper.
+  // range_threshold_m sizes the grids. `clock` must outlive the mapper. Requires num_threads >= 1;
+  // results do not depend on it.
   Mapper(const KartoParams& params, double range_threshold_m, PoseGraph pose_graph,
-         StageClock& clock);
+         StageClock& clock, int num_threads);
 
   // Adds a usable scan standing at its predicted pose; numbers it and corrects its pose, and at a
   // loop closure those of all scans. The first is taken where it stands.
@@ -42,11 +46,14 @@ class Mapper {
   void publish_poses();
 
  private:
+  void add_in_arena(KeyScan scan);
   [[nodiscard]] KeyScan& newest() { return scans_.back(); }
+  [[nodiscard]] const KeyScan& newest() const { return scans_.back(); }
   [[nodiscard]] PoseWithCovariance match_with_buffer();
   void add_vertex();
   void link_and_average(const PoseWithCovariance& matched);
   void link_with_near_chains(std::vector<PoseWithCovariance>& estimates);
+  [[nodiscard]] std::vector<MatchResult> match_with(const std::vector<Chain>& chains);
   void link(KeyScanId from, const PoseWithCovariance& matched);
   void link_with_closest(const Chain& chain, const PoseWithCovariance& matched);
   void extend_buffer();
@@ -55,12 +62,15 @@ class Mapper {
   void correct_poses();
 
   void move(KeyScan& scan, const Pose2& T_map_sensor);
+  // Of the newest scan.
   MatchResult match(CorrelativeMatcher& matcher, const Pose2& T_map_sensor_predicted,
-                    const Chain& local_map, const MatchOptions& options);
+                    const Chain& local_map, const MatchOptions& options) const;
 
   KartoParams params_;
   StageClock& clock_;
-  CorrelativeMatcher sequential_matcher_;
+  tbb::task_arena arena_;
+  // One per thread: near chains are matched at the same time.
+  tbb::enumerable_thread_specific<CorrelativeMatcher> sequential_matchers_;
   CorrelativeMatcher loop_matcher_;
   PoseGraph pose_graph_;
   ScanLinks links_;

@@ -1,5 +1,8 @@
 #include "baselines/karto/window_sweep.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,6 +16,7 @@ namespace {
 
 constexpr int kBytes = 32;          // of one vector
 constexpr int kLanes = kBytes / 2;  // 16-bit sums in it
+constexpr int kSmallWindow = 8;     // not worth a second thread
 constexpr int kTileRows = 4;        // rows of positions that are summed at once
 // Beams between two looks at whether a tile can still reach the sum that is asked for; as many go
 // through all headings at once where none is.
@@ -82,7 +86,11 @@ struct TileSums {
 class Sweep {
  public:
   Sweep(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule)
-      : grid_(grid), window_(window), edge_rule_(edge_rule) {}
+      : grid_(grid),
+        window_(window),
+        edge_rule_(edge_rule),
+        first_inner_(-index_of(0)),
+        last_inner_(grid.num_cells() - 1 - index_of(window.count - 1) - span_cells()) {}
 
   // Sums what has to be checked and collects what need not.
   void start(HeadingSweep& heading) const {
@@ -113,23 +121,23 @@ class Sweep {
            std::int64_t{window_.first_row + row * window_.step_cells} * grid_.stride();
   }
   [[nodiscard]] int span_cells() const { return window_.step_cells * (window_.count - 1); }
-  [[nodiscard]] std::int64_t lowest_index(const BeamOffset& offset) const {
-    return index_of(0) + offset.linear;
-  }
-  [[nodiscard]] std::int64_t highest_index(const BeamOffset& offset) const {
-    return index_of(window_.count - 1) + span_cells() + offset.linear;
-  }
   // True if the beam may be read at every position of the window.
   [[nodiscard]] bool is_inner(const BeamOffset& offset) const {
-    if (lowest_index(offset) < 0 || highest_index(offset) >= grid_.num_cells()) return false;
+    if (offset.linear < first_inner_ || offset.linear > last_inner_) return false;
     if (edge_rule_ == EdgeRule::kWrap) return true;
     const std::int64_t column = std::int64_t{window_.first_column} + offset.column;
     return column >= 0 && column + span_cells() < grid_.side_cells();
   }
+  // True if there is a position where it is in memory.
+  [[nodiscard]] bool is_anywhere(const BeamOffset& offset) const {
+    const std::int64_t lowest = index_of(0) + offset.linear;
+    const std::int64_t highest = index_of(window_.count - 1) + span_cells() + offset.linear;
+    return highest >= 0 && lowest < grid_.num_cells();
+  }
 
   // A beam that leaves the grid somewhere in the window: only its readable positions, row by row.
   void add_checked(const BeamOffset& offset, std::uint32_t* sums) const {
-    if (highest_index(offset) < 0 || lowest_index(offset) >= grid_.num_cells()) return;
+    if (!is_anywhere(offset)) return;
     const std::int64_t column = std::int64_t{window_.first_column} + offset.column;
     const IndexSpan in_columns = edge_rule_ == EdgeRule::kStop
                                      ? positions_within(column, grid_.side_cells())
@@ -208,16 +216,14 @@ class Sweep {
   const CorrelationGrid& grid_;
   const SweepWindow& window_;
   EdgeRule edge_rule_;
+  // Linear offsets that stay in memory at every position.
+  std::int64_t first_inner_;
+  std::int64_t last_inner_;
 };
-
-}  // namespace
 
 // Neighbouring headings look up neighbouring cells: without a bound, a few beams go through all of
 // them before the next few, so that the cells stay in the first-level cache.
-void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
-                  std::uint32_t min_sum, std::span<HeadingSweep> headings) {
-  CORRIDOR_EXPECT(window.step_cells == 1 || window.step_cells == 2);
-  const Sweep sweep(grid, window, edge_rule);
+void sweep_headings(const Sweep& sweep, std::uint32_t min_sum, std::span<HeadingSweep> headings) {
   std::size_t most_beams = 0;
   for (HeadingSweep& heading : headings) {
     sweep.start(heading);
@@ -232,6 +238,23 @@ void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRu
       sweep.add(std::span(heading.inner).subspan(begin, count), 0, heading.sums.data());
     }
   }
+}
+
+}  // namespace
+
+void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
+                  std::uint32_t min_sum, std::span<HeadingSweep> headings) {
+  CORRIDOR_EXPECT(window.step_cells == 1 || window.step_cells == 2);
+  const Sweep sweep(grid, window, edge_rule);
+  const auto num_threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  if (num_threads == 1 || window.count < kSmallWindow) {
+    return sweep_headings(sweep, min_sum, headings);
+  }
+  const std::size_t per_task = (headings.size() + num_threads - 1) / num_threads;
+  tbb::parallel_for(std::size_t{0}, headings.size(), per_task, [&](std::size_t begin) {
+    const std::size_t count = std::min(per_task, headings.size() - begin);
+    sweep_headings(sweep, min_sum, headings.subspan(begin, count));
+  });
 }
 
 }  // namespace corridor::karto

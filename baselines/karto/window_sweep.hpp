@@ -39,7 +39,7 @@ struct HeadingSweep {
 // For each heading sums[j * count + i] = sum over its beams of the grid's value at position (i, j)
 // plus offset, exact where it is at least `min_sum`. A smaller one may come out too small: such
 // positions are given up once their remaining beams cannot lift them to min_sum. Every `sums` has
-// num_positions() elements.
+// num_positions() elements. Headings are shared out to the threads of the present task arena.
 void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
                   std::uint32_t min_sum, std::span<HeadingSweep> headings);
 

@@ -62,7 +62,7 @@ SystemInfo karto_entry() {
       [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
         auto back_end = back_end_for(request, "levenberg", backend::spa_params());
         if (!back_end) return tl::make_unexpected(back_end.error());
-        return karto::make_karto(params, request.robot, std::move(*back_end));
+        return karto::make_karto(params, request.robot, std::move(*back_end), request.threads);
       });
   return info;
 }
