@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBytes = 32;          // of one vector
 constexpr int kLanes = kBytes / 2;  // 16-bit sums in it
-constexpr int kSmallWindow = 8;     // not worth a second thread
+constexpr int kSmallWindow = 32;    // not worth a second thread
 constexpr int kTileRows = 4;        // rows of positions that are summed at once
 // Beams between two looks at whether a tile can still reach the sum that is asked for; as many go
 // through all headings at once where none is.
