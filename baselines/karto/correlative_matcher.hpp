@@ -1,42 +1,24 @@
 // Correlative scan-to-local-map matching in two stages, coarse and fine.
-// [Konolige2010] section IV, [Olson2009]; as shipped by Karto. It searches a fixed window by brute
-// force; it has no branch and bound and no gradient.
+// [Konolige2010] section IV, [Olson2009]; as shipped by Karto. It searches a fixed window of poses,
+// all of them; it has no gradient.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "baselines/karto/correlation_grid.hpp"
-#include "baselines/karto/karto_params.hpp"
-#include "baselines/karto/key_scan.hpp"
 #include "baselines/karto/response_table.hpp"
+#include "baselines/karto/scan_matcher.hpp"
 #include "baselines/karto/window_sweep.hpp"
 
 namespace corridor::karto {
 
-struct MatchOptions {
-  bool use_penalty = false;    // prefer poses near the prediction
-  bool use_refinement = true;  // fine stage after the coarse one
-  // The caller takes no match that responds with this or less: a search without refinement need
-  // not tell such poses apart, and may report a smaller response.
-  double min_response = 0;
-};
-
-struct MatchResult {
-  Pose2 T_map_sensor;
-  // 3x3, order (x_m, y_m, theta_rad): position in map axes, heading.
-  Eigen::Matrix3d covariance_map = Eigen::Matrix3d::Zero();
-  double response = 0;  // 0 to 1: share of beams that end on a surface of the local map
-};
-
-class CorrelativeMatcher {
+class CorrelativeMatcher final : public ScanMatcher {
  public:
   CorrelativeMatcher(const GridSpec& spec, const KartoParams& params);
 
-  // Finds the scan's pose against the end points of `local_map`, within the window around
-  // `T_map_sensor_predicted`. Only surfaces facing the predicted position count.
   MatchResult match(const KeyScan& scan, const Pose2& T_map_sensor_predicted,
-                    std::span<const KeyScan* const> local_map, const MatchOptions& options);
+                    std::span<const KeyScan* const> local_map,
+                    const MatchOptions& options) override;
 
  private:
   struct Stage {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "baselines/karto/correlative_matcher.hpp"
 #include "baselines/karto/key_scan_rule.hpp"
 #include "baselines/karto/mapper.hpp"
 #include "baselines/karto/occupancy_rule.hpp"
@@ -22,6 +23,11 @@ StepReport nothing_to_do(Timestamp stamp) {
   StepReport report;
   report.stamp = stamp;
   return report;
+}
+
+std::unique_ptr<ScanMatcher> make_correlative_matcher(const GridSpec& spec,
+                                                      const KartoParams& params) {
+  return std::make_unique<CorrelativeMatcher>(spec, params);
 }
 
 double range_threshold_of(const KartoParams& params, const RobotModel& robot,
@@ -118,7 +124,7 @@ class KartoSlam::Impl {
     }
     if (!mapper_) {
       mapper_.emplace(params_, range_threshold_m_, PoseGraph(std::move(back_end_), *T_map_start_),
-                      clock_, num_threads_);
+                      clock_, num_threads_, make_correlative_matcher);
     } else if (!is_key_scan(mapper_->scans().back(), *candidate, params_)) {
       return;
     } else {

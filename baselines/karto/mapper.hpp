@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "baselines/karto/chains.hpp"
-#include "baselines/karto/correlative_matcher.hpp"
 #include "baselines/karto/pose_graph.hpp"
+#include "baselines/karto/scan_matcher.hpp"
 #include "slam/core/stage_clock.hpp"
 
 namespace corridor::karto {
@@ -33,7 +33,7 @@ class Mapper {
   // range_threshold_m sizes the grids. `clock` must outlive the mapper. Requires num_threads >= 1;
   // results do not depend on it.
   Mapper(const KartoParams& params, double range_threshold_m, PoseGraph pose_graph,
-         StageClock& clock, int num_threads);
+         StageClock& clock, int num_threads, const MatcherFactory& make_matcher);
 
   // Adds a usable scan standing at its predicted pose; numbers it and corrects its pose, and at a
   // loop closure those of all scans. The first is taken where it stands.
@@ -63,15 +63,15 @@ class Mapper {
 
   void move(KeyScan& scan, const Pose2& T_map_sensor);
   // Of the newest scan.
-  MatchResult match(CorrelativeMatcher& matcher, const Pose2& T_map_sensor_predicted,
+  MatchResult match(ScanMatcher& matcher, const Pose2& T_map_sensor_predicted,
                     const Chain& local_map, const MatchOptions& options) const;
 
   KartoParams params_;
   StageClock& clock_;
   tbb::task_arena arena_;
   // One per thread: near chains are matched at the same time.
-  tbb::enumerable_thread_specific<CorrelativeMatcher> sequential_matchers_;
-  CorrelativeMatcher loop_matcher_;
+  tbb::enumerable_thread_specific<std::unique_ptr<ScanMatcher>> sequential_matchers_;
+  std::unique_ptr<ScanMatcher> loop_matcher_;
   PoseGraph pose_graph_;
   ScanLinks links_;
   Chain buffer_;

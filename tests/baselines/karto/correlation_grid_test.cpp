@@ -30,13 +30,28 @@ TEST(CorrelationGrid, HasTheOriginalsSides) {
   EXPECT_EQ((GridSpec{0.01, 0.3, 12, 0.03}.inner_side_cells()), 2431);
   EXPECT_EQ((GridSpec{0.05, 8.0, 12, 0.03}.inner_side_cells()), 641);
   // A border of the kernel's half width + 1 on either side; rows padded to a multiple of 8.
-  const CorrelationGrid grid({0.01, 0.3, 12, 0.03});
+  const CorrelationGrid grid({0.01, 0.3, 12, 0.03}, 1);
   EXPECT_EQ(grid.side_cells(), 2445);
   EXPECT_EQ(grid.stride(), 2448);
 }
 
 class SmallGrid : public ::testing::Test {
  protected:
+  static constexpr int kReadMargin = 3;
+
+  void draw(const std::vector<Eigen::Vector2d>& points_m) {
+    PointColumns columns(static_cast<Eigen::Index>(points_m.size()), 2);
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      columns.row(static_cast<Eigen::Index>(i)) = points_m[i].transpose();
+    }
+    GridCells cells;
+    grid.find_cells(columns, cells);
+    grid.occupy(cells, 0, points_m.size());
+  }
+  void draw_all(const std::vector<Eigen::Vector2d>& points_m) {
+    grid.blocks().want_all();
+    draw(points_m);
+  }
   [[nodiscard]] int value(int column, int row) const {
     return grid.cells()[grid.linear_index({column, row})];
   }
@@ -46,7 +61,7 @@ class SmallGrid : public ::testing::Test {
     return sum;
   }
 
-  CorrelationGrid grid{{0.05, 0.2, 1.0, 0.03}};
+  CorrelationGrid grid{{0.05, 0.2, 1.0, 0.03}, kReadMargin};
   Eigen::Vector2d centre_m{3, -2};
 };
 
@@ -61,7 +76,7 @@ TEST_F(SmallGrid, PutsItsMiddleCellOnTheCentre) {
 TEST_F(SmallGrid, SmearsEachPointAndKeepsTheLargerValueWhereStampsOverlap) {
   grid.reset(centre_m);
   const std::vector<Eigen::Vector2d> points = {centre_m, centre_m + Eigen::Vector2d(0.1, 0)};
-  grid.add_points(points);
+  draw_all(points);
   const int middle = (grid.side_cells() - 1) / 2;
   EXPECT_EQ(value(middle, middle), 100);
   EXPECT_EQ(value(middle + 2, middle), 100);
@@ -74,7 +89,7 @@ TEST_F(SmallGrid, ForgetsEverythingWhenReset) {
   grid.reset(centre_m);
   const std::vector<Eigen::Vector2d> points = {centre_m, centre_m + Eigen::Vector2d(1.1, 1.1),
                                                centre_m - Eigen::Vector2d(1.1, 1.1)};
-  grid.add_points(points);
+  draw_all(points);
   EXPECT_EQ(sum_of_all(), 3 * (100 + 4 * 25 + 4 * 6));
   grid.reset({});
   EXPECT_EQ(sum_of_all(), 0);
@@ -84,8 +99,67 @@ TEST_F(SmallGrid, LeavesOutPointsBeyondTheReach) {
   grid.reset(centre_m);
   const std::vector<Eigen::Vector2d> points = {centre_m + Eigen::Vector2d(1.16, 0),
                                                centre_m + Eigen::Vector2d(0, -500)};
-  grid.add_points(points);
+  draw_all(points);
   EXPECT_EQ(sum_of_all(), 0);
+}
+
+TEST_F(SmallGrid, DrawsAllThatIsReadWithinTheMarginOfAWantedCell) {
+  for (const int offset : {-kReadMargin, 0, kReadMargin}) {
+    grid.reset(centre_m);
+    const std::vector<Eigen::Vector2d> points = {centre_m};
+    // The cell beside the point's own is smeared; it is read from `offset` cells further on.
+    const Eigen::Vector2i smeared = grid.cell_of(centre_m) + Eigen::Vector2i(1, 0);
+    grid.blocks().want(smeared.y(), smeared.x() + offset);
+    grid.blocks().add_margin();
+    draw(points);
+    EXPECT_EQ(value(smeared.x(), smeared.y()), 25) << offset;
+  }
+}
+
+TEST_F(SmallGrid, LeavesOutWhatNobodyReads) {
+  CorrelationGrid wide({0.01, 0.2, 1.0, 0.03}, kReadMargin);
+  wide.reset(centre_m);
+  wide.blocks().want(wide.middle_cell(), wide.middle_cell());
+  wide.blocks().add_margin();
+  PointColumns points(2, 2);
+  points << centre_m.x(), centre_m.y(), centre_m.x() + 0.6, centre_m.y();
+  GridCells cells;
+  wide.find_cells(points, cells);
+  wide.occupy(cells, 0, 2);
+  EXPECT_EQ(wide.cells()[cells.index[0]], 100);
+  EXPECT_EQ(wide.cells()[cells.index[1]], 0);
+}
+
+TEST(GridBlocks, ACellBeyondTheEndOfARowIsOneOfTheNextRow) {
+  GridBlocks blocks(200, 208, 1);
+  blocks.want(100, 208 + 50);
+  EXPECT_TRUE(blocks.is_wanted(blocks.layout().block_of(101, 50)));
+  EXPECT_FALSE(blocks.is_wanted(blocks.layout().block_of(100, 50 + 16)));
+  blocks.clear();
+  blocks.want(100, -50);
+  EXPECT_TRUE(blocks.is_wanted(blocks.layout().block_of(99, 208 - 50)));
+}
+
+TEST(GridBlocks, TheMarginRunsAroundTheEndsOfRows) {
+  GridBlocks blocks(200, 208, 10);
+  blocks.want(100, 205);
+  blocks.add_margin();
+  EXPECT_TRUE(blocks.is_wanted(blocks.layout().block_of(100, 195)));
+  EXPECT_TRUE(blocks.is_wanted(blocks.layout().block_of(101, 6)));
+  blocks.clear();
+  blocks.want(100, 2);
+  blocks.add_margin();
+  EXPECT_TRUE(blocks.is_wanted(blocks.layout().block_of(99, 208 - 8)));
+}
+
+TEST(GridBlocks, NowhereIsNeverWanted) {
+  GridBlocks blocks(64, 64, 16);
+  blocks.want_all();
+  EXPECT_FALSE(blocks.is_wanted(GridBlocks::kNowhere));
+  blocks.clear();
+  blocks.want(-16, -16);
+  blocks.add_margin();
+  EXPECT_FALSE(blocks.is_wanted(GridBlocks::kNowhere));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace corridor::karto {
 namespace {
 
 std::unique_ptr<SlamSystem> make(const RobotModel& robot = {}, const KartoParams& params = {}) {
-  return make_karto(params, robot, backend::make_least_squares(backend::spa_params()));
+  return make_karto(params, robot, backend::make_least_squares(backend::spa_params()), 1);
 }
 
 struct Drive {
@@ -76,7 +76,7 @@ TEST(KartoSlam, StartsAtTheOriginWhateverTheOdometrysFrame) {
 
 TEST(KartoSlam, HandsOutTheGraphItSolvedInTheTrajectorysFrame) {
   const SensorLog log = testing::room_log();
-  KartoSlam slam({}, log.robot, backend::make_least_squares(backend::spa_params()));
+  KartoSlam slam({}, log.robot, backend::make_least_squares(backend::spa_params()), 1);
   std::vector<std::size_t> key_scans;
   std::size_t num_scans = 0;
   for (const SensorEvent& event : log.events) {

@@ -66,8 +66,8 @@ TEST(KeyScan, ItsReferenceIsTheMeanEndPointWithinTheThreshold) {
 }
 
 TEST(KeyScan, KeepsEndPointsOfNoReturnsWhereAsked) {
-  EXPECT_EQ(at({}).points_map_m().size(), 4u);
-  EXPECT_EQ(KeyScan(four_beams(), {}, {12, true, false}).points_map_m().size(), 2u);
+  EXPECT_EQ(at({}).points_map_m().rows(), 4);
+  EXPECT_EQ(KeyScan(four_beams(), {}, {12, true, false}).points_map_m().rows(), 2);
 }
 
 TEST(KeyScan, WithoutABeamInRangeIsUnusableButFinite) {
@@ -78,7 +78,7 @@ TEST(KeyScan, WithoutABeamInRangeIsUnusableButFinite) {
   const KeyScan key_scan(scan, Pose2(1, 2, 3), {});
   EXPECT_FALSE(key_scan.is_usable());
   EXPECT_EQ(key_scan.reference_map_m(), Eigen::Vector2d(1, 2));
-  EXPECT_EQ(key_scan.points_map_m().size(), 1u);
+  EXPECT_EQ(key_scan.points_map_m().rows(), 1);
 }
 
 TEST(RunningBuffer, IsTrimmedFromTheFrontByCountAndByDistance) {

@@ -45,7 +45,8 @@ TEST_P(OriginalKarto, IsReproducedPoseByPoseOnTheCorridorLog) {
   ASSERT_TRUE(log.has_value()) << log.error().to_line();
   const std::vector<OriginalPose> original = read_original(*original_file);
 
-  const auto slam = make_karto({}, log->robot, backend::make_least_squares(backend::spa_params()));
+  const auto slam =
+      make_karto({}, log->robot, backend::make_least_squares(backend::spa_params()), 1);
   std::vector<bool> is_key_scan;
   for (const SensorEvent& event : log->events) {
     const Result<StepReport> report = slam->step(event);

@@ -8,8 +8,17 @@ namespace {
 using Points = std::vector<Eigen::Vector2d>;
 
 Points facing(const Eigen::Vector2d& viewpoint_m, const Points& points_m) {
+  PointColumns columns(static_cast<Eigen::Index>(points_m.size()), 2);
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    columns.row(static_cast<Eigen::Index>(i)) = points_m[i].transpose();
+  }
+  std::vector<SurfacePiece> pieces;
+  cut_surface(columns, kAnchorSpacing_m, pieces);
   Points kept;
-  append_points_facing(viewpoint_m, points_m, kAnchorSpacing_m, kept);
+  for (const SurfacePiece& piece : pieces) {
+    if (!piece.faces(viewpoint_m)) continue;
+    kept.insert(kept.end(), points_m.begin() + piece.begin, points_m.begin() + piece.end);
+  }
   return kept;
 }
 

@@ -1,0 +1,45 @@
+// What the mapper asks of a scan matcher: where a scan is in a local map, how sure that is, and how
+// well it fits.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "baselines/karto/correlation_grid.hpp"
+#include "baselines/karto/karto_params.hpp"
+#include "baselines/karto/key_scan.hpp"
+
+namespace corridor::karto {
+
+struct MatchOptions {
+  bool use_penalty = false;    // prefer poses near the prediction
+  bool use_refinement = true;  // fine stage after the coarse one
+  // The caller takes no match that responds with this or less: a search without refinement need
+  // not tell such poses apart, and may report a smaller response.
+  double min_response = 0;
+};
+
+struct MatchResult {
+  Pose2 T_map_sensor;
+  // 3x3, order (x_m, y_m, theta_rad): position in map axes, heading.
+  Eigen::Matrix3d covariance_map = Eigen::Matrix3d::Zero();
+  double response = 0;  // 0 to 1: share of beams that end on a surface of the local map
+};
+
+// Its memory belongs to one thread at a time.
+class ScanMatcher {
+ public:
+  virtual ~ScanMatcher() = default;
+
+  // Finds the scan's pose against the end points of `local_map`, within the window around
+  // `T_map_sensor_predicted`. Only surfaces facing the predicted position count.
+  virtual MatchResult match(const KeyScan& scan, const Pose2& T_map_sensor_predicted,
+                            std::span<const KeyScan* const> local_map,
+                            const MatchOptions& options) = 0;
+};
+
+using MatcherFactory =
+    std::function<std::unique_ptr<ScanMatcher>(const GridSpec&, const KartoParams&)>;
+
+}  // namespace corridor::karto
