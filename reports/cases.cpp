@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 10> kOrder = {
     "karto",          "fusion-paper",        "fusion",   "graph-batch", "graph-incremental"};
 
 // The profile of what a program's users get; others change something and are named after it.
-constexpr std::string_view kShippedProfile = "shipped";
+constexpr std::string_view kShippedProfile = "as-shipped";
 
 std::size_t rank(const std::string& system) {
   return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), system) - kOrder.begin());

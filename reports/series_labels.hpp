@@ -13,7 +13,7 @@ namespace corridor::reports {
 
 // The system's name; "@profile" and "/backend" where the system ran with more than one; then in
 // brackets what else tells series of that name apart: up to two parameters with their values (a
-// hash of all where more differ), and the code's revision. "karto@shipped (a=1, b=2)",
+// hash of all where more differ), and the code's revision. "karto@as-shipped (a=1, b=2)",
 // "fusion (#88adda; at 48762d9+dirty)". What was set by hand always stands there, also where no
 // other series has that name: "karto (set: use_loop_closing=false)".
 std::map<Series, std::string> series_labels(const std::vector<Case>& cases);

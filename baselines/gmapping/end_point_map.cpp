@@ -32,6 +32,20 @@ float EndPointMap::nearest_m2(float x_m, float y_m, int kernel_cells) const {
   return nearest_around_m2(x_m, y_m, cell_index(x_m), cell_index(y_m), kernel_cells);
 }
 
+float EndPointMap::nearest_with_free_front_m2(float x_m, float y_m, int kernel_cells,
+                                              const Eigen::Vector2i& front_cells) const {
+  const int column = cell_index(x_m);
+  const int row = cell_index(y_m);
+  float best_m2 = 2 * kNotFoundM2;
+  for (int r = row - kernel_cells; r <= row + kernel_cells; ++r) {
+    for (int c = column - kernel_cells; c <= column + kernel_cells; ++c) {
+      const float m2 = (mean_m(c, r) - Eigen::Vector2f(x_m, y_m)).squaredNorm();
+      if (m2 < best_m2 && hits(c + front_cells.x(), r + front_cells.y()) == 0) best_m2 = m2;
+    }
+  }
+  return best_m2;
+}
+
 float EndPointMap::nearest_around_m2(float x_m, float y_m, int column, int row,
                                      int kernel_cells) const {
   float best_m2 = 2 * kNotFoundM2;

@@ -64,6 +64,10 @@ class EndPointMap {
                            : nearest_in_tile_m2(*tile, x_m, y_m, in_tile_column, in_tile_row);
   }
 
+  // As nearest_m2, but of those cells only whose neighbour `front_cells` further has no hit.
+  [[nodiscard]] float nearest_with_free_front_m2(float x_m, float y_m, int kernel_cells,
+                                                 const Eigen::Vector2i& front_cells) const;
+
   [[nodiscard]] float cells_per_m() const { return cells_per_m_; }
   [[nodiscard]] int cell_index(float coordinate_m) const {
     return static_cast<int>(std::floor(coordinate_m * cells_per_m_));

@@ -29,6 +29,15 @@ struct GmappingParams {
   double resample_threshold_ratio = 0.5;     // resampleThreshold
   double map_occupied_ratio = 0.25;          // occ_thresh
 
+  // Switches of the `as-published` profile; false is what the original does.
+  bool sample_proposal = false;
+  bool require_free_front = false;
+  // The lattice around the optimum that the sampled proposal is fitted to.
+  double proposal_linear_range_m = 0.01;      // llsamplerange
+  double proposal_linear_step_m = 0.01;       // llsamplestep
+  double proposal_angular_range_rad = 0.005;  // lasamplerange
+  double proposal_angular_step_rad = 0.005;   // lasamplestep
+
   template <class V>
   static void visit(GmappingParams& p, V&& v) {
     v(ParamInfo{"num_particles", "1", "number of particles", 1, 100000}, p.num_particles);
@@ -90,7 +99,33 @@ struct GmappingParams {
     v(ParamInfo{"map_occupied_ratio", "1",
                 "cells of the published map with more hits per visit are occupied", 0.01, 0.99},
       p.map_occupied_ratio);
+    visit_proposal(p, v);
+  }
+
+ private:
+  template <class V>
+  static void visit_proposal(GmappingParams& p, V& v) {
+    v(ParamInfo{"sample_proposal", "",
+                "draw each pose from a Gaussian fitted around the best match; false: take the best "
+                "match"},
+      p.sample_proposal);
+    v(ParamInfo{"require_free_front", "",
+                "an end point is compared only with cells that have a free one before them"},
+      p.require_free_front);
+    v(ParamInfo{"proposal_linear_range_m", "m",
+                "poses around the best match that shape the Gaussian, to each side", 0, 1},
+      p.proposal_linear_range_m);
+    v(ParamInfo{"proposal_linear_step_m", "m", "distance of two of them", 1e-6, 1},
+      p.proposal_linear_step_m);
+    v(ParamInfo{"proposal_angular_range_rad", "rad", "the same for the heading", 0, 1},
+      p.proposal_angular_range_rad);
+    v(ParamInfo{"proposal_angular_step_rad", "rad", "distance of two of them", 1e-6, 1},
+      p.proposal_angular_step_rad);
   }
 };
+
+// What [Grisetti2007] describes: poses drawn from a Gaussian around the best match, weights by its
+// normaliser, and a free cell before every end point.
+GmappingParams published_params();
 
 }  // namespace corridor::gmapping

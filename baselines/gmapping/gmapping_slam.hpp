@@ -1,8 +1,7 @@
 // GMapping-style Rao-Blackwellised particle filter [Grisetti2007] as shipped: 30 particles, each
 // with its own map, moved by sampled odometry, put on the best scan match, weighed by its
-// likelihood. Deviation: the shipped filter puts each particle on the optimum of the match instead
-// of sampling the Gaussian proposal of [Grisetti2007] eq. 14-18; so does this one. No loop closing,
-// no IMU.
+// likelihood; with published_params() as described: poses are drawn from the Gaussian proposal of
+// [Grisetti2007] eq. 14-18. No loop closing, no IMU.
 #pragma once
 
 #include <memory>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "baselines/gmapping/hill_climb.hpp"
 #include "baselines/gmapping/motion_model.hpp"
+#include "baselines/gmapping/proposal.hpp"
 #include "baselines/gmapping/resampling.hpp"
 #include "baselines/gmapping/scan_score.hpp"
 #include "slam/core/expect.hpp"
@@ -16,6 +16,7 @@ namespace corridor::gmapping {
 ParticleFilter::ParticleFilter(const GmappingParams& params, Rng rng, int num_threads)
     : params_(params),
       motion_rng_(rng.stream("motion")),
+      proposal_rng_(rng.stream("proposal")),
       resampling_rng_(rng.stream("resampling")),
       arena_(num_threads),
       particles_(static_cast<std::size_t>(params.num_particles), Particle(params.cell_size_m)) {
@@ -24,6 +25,13 @@ ParticleFilter::ParticleFilter(const GmappingParams& params, Rng rng, int num_th
 }
 
 void ParticleFilter::predict(const Pose2& T_before_after) {
+  T_used_now_ = T_used_now_ * T_before_after;
+  if (params_.sample_proposal) {
+    for (Particle& particle : particles_) {
+      particle.T_map_base = particle.T_map_base * T_before_after;
+    }
+    return;
+  }
   const MotionNoise noise = motion_noise(T_before_after, params_);
   const Rng step_rng = motion_rng_.stream(num_predictions_++);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -36,6 +44,7 @@ void ParticleFilter::match_and_weigh(const ScanPoints& points) {
   const HillClimbSteps steps{.linear_m = params_.linear_step_m,
                              .angular_rad = params_.angular_step_rad,
                              .num_refinements = params_.num_refinements};
+  const Rng match_rng = proposal_rng_.stream(num_matches_++);
   std::vector<int> num_evaluations(particles_.size());
   for_each_particle([&](std::size_t i) {
     Particle& particle = particles_[i];
@@ -43,15 +52,43 @@ void ParticleFilter::match_and_weigh(const ScanPoints& points) {
         hill_climb(particle.T_map_base, steps, [&](const Pose2& T_map_base) {
           return scan_score(particle.map, points, T_map_base, params_);
         });
-    if (match.score > params_.min_score) particle.T_map_base = match.T_map_base;
-    const double log_likelihood =
-        scan_log_likelihood(particle.map, points, particle.T_map_base, params_);
-    particle.log_weight += log_likelihood;
-    particle.log_weight_sum += log_likelihood;
+    if (params_.sample_proposal) {
+      draw_around_match(particle, match, points, match_rng.stream(i));
+    } else {
+      take_match(particle, match, points);
+    }
     num_evaluations[i] = match.num_evaluations;
   });
   num_score_evaluations_ =
       std::accumulate(num_evaluations.begin(), num_evaluations.end(), num_score_evaluations_);
+}
+
+// As shipped. A match that is too poor leaves the particle where odometry put it.
+void ParticleFilter::take_match(Particle& particle, const HillClimbResult& match,
+                                const ScanPoints& points) const {
+  if (match.score > params_.min_score) particle.T_map_base = match.T_map_base;
+  particle.add_log_weight(scan_log_likelihood(particle.map, points, particle.T_map_base, params_));
+}
+
+// [Grisetti2007] algorithm 1: the target is observation times motion, the weight its sum. After a
+// poor match, a sample of the motion, weighed by the observation.
+void ParticleFilter::draw_around_match(Particle& particle, const HillClimbResult& match,
+                                       const ScanPoints& points, Rng rng) const {
+  const Pose2 T_map_before = particle.T_map_base * T_used_now_.inverse();
+  const MotionNoise noise = motion_noise(T_used_now_, params_);
+  if (!(match.score > params_.min_score)) {
+    particle.T_map_base = sample_motion(T_map_before, T_used_now_, noise, rng);
+    particle.add_log_weight(
+        scan_log_likelihood(particle.map, points, particle.T_map_base, params_));
+    return;
+  }
+  const GaussianProposal proposal =
+      fit_proposal(match.T_map_base, params_, [&](const Pose2& T_map_base) {
+        return scan_log_likelihood(particle.map, points, T_map_base, params_) +
+               log_motion_density(T_map_before, T_map_base, T_used_now_, noise);
+      });
+  particle.T_map_base = draw_pose(proposal, rng);
+  particle.add_log_weight(proposal.log_normaliser);
 }
 
 bool ParticleFilter::resample_if_needed() {
@@ -75,6 +112,7 @@ bool ParticleFilter::resample_if_needed() {
 void ParticleFilter::register_scan(const ScanPoints& points) {
   for_each_particle(
       [&](std::size_t i) { particles_[i].map.insert(points, particles_[i].T_map_base); });
+  T_used_now_ = Pose2();
   for (Particle& particle : particles_) {
     particle.node = ancestry_.add(particle.T_map_base, particle.node);
   }

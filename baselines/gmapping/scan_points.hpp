@@ -13,6 +13,9 @@ namespace corridor::gmapping {
 struct ScanPoints {
   std::vector<float> x_base_m;
   std::vector<float> y_base_m;
+  // Unit vector of each beam, from the sensor to its end point.
+  std::vector<float> beam_x_base = {};
+  std::vector<float> beam_y_base = {};
 
   [[nodiscard]] std::size_t size() const { return x_base_m.size(); }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace corridor::gmapping {
 namespace {
@@ -20,10 +21,21 @@ struct FloatPose {
   float x_m, y_m, cos_theta, sin_theta;
 };
 
+// From a cell to the one before it on the beam, a diagonal of a cell nearer to the sensor.
+Eigen::Vector2i front_cells(const ScanPoints& points, std::size_t index, const FloatPose& pose) {
+  const float x = points.beam_x_base[index];
+  const float y = points.beam_y_base[index];
+  constexpr float kDiagonal_cells = std::numbers::sqrt2_v<float>;
+  return {
+      static_cast<int>(std::lround(-kDiagonal_cells * (pose.cos_theta * x - pose.sin_theta * y))),
+      static_cast<int>(std::lround(-kDiagonal_cells * (pose.sin_theta * x + pose.cos_theta * y)))};
+}
+
 // Squared distances of points [begin, begin + count) to their nearest means; the rest of the block
 // is filled as "nothing found".
 void nearest_block_m2(const EndPointMap& map, const ScanPoints& points, std::size_t begin,
-                      std::size_t count, const FloatPose& pose, int kernel_cells, Block& out_m2) {
+                      std::size_t count, const FloatPose& pose, const GmappingParams& params,
+                      Block& out_m2) {
   alignas(32) float x_m[kBlock];
   alignas(32) float y_m[kBlock];
   alignas(32) int column[kBlock];
@@ -38,23 +50,30 @@ void nearest_block_m2(const EndPointMap& map, const ScanPoints& points, std::siz
     row[i] = static_cast<int>(std::floor(y_m[i] * cells_per_m));
   }
   if (count < kBlock) out_m2.setConstant(2 * kNotFoundM2);
+  const int kernel_cells = params.kernel_size_cells;
   for (std::size_t i = 0; i < count; ++i) {
-    out_m2[static_cast<Eigen::Index>(i)] =
-        kernel_cells == 1 ? map.nearest_of_nine_m2(x_m[i], y_m[i], column[i], row[i])
-                          : map.nearest_m2(x_m[i], y_m[i], kernel_cells);
+    float& nearest_m2 = out_m2[static_cast<Eigen::Index>(i)];
+    if (params.require_free_front) {
+      nearest_m2 = map.nearest_with_free_front_m2(x_m[i], y_m[i], kernel_cells,
+                                                  front_cells(points, begin + i, pose));
+    } else if (kernel_cells == 1) {
+      nearest_m2 = map.nearest_of_nine_m2(x_m[i], y_m[i], column[i], row[i]);
+    } else {
+      nearest_m2 = map.nearest_m2(x_m[i], y_m[i], kernel_cells);
+    }
   }
 }
 
 // Adds up term(block of squared distances, number of points in it) over all points.
 template <class Term>
 double sum_over_blocks(const EndPointMap& map, const ScanPoints& points, const Pose2& T_map_base,
-                       int kernel_cells, Term&& term) {
+                       const GmappingParams& params, Term&& term) {
   const FloatPose pose(T_map_base);
   double sum = 0;
   Block nearest_m2;
   for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - begin);
-    nearest_block_m2(map, points, begin, count, pose, kernel_cells, nearest_m2);
+    nearest_block_m2(map, points, begin, count, pose, params, nearest_m2);
     sum += term(nearest_m2, count);
   }
   return sum;
@@ -66,8 +85,7 @@ double scan_score(const EndPointMap& map, const ScanPoints& points, const Pose2&
                   const GmappingParams& params) {
   const auto factor = static_cast<float>(-1 / params.score_sigma_m2);
   return sum_over_blocks(
-      map, points, T_map_base, params.kernel_size_cells,
-      [factor](const Block& nearest_m2, std::size_t) {
+      map, points, T_map_base, params, [factor](const Block& nearest_m2, std::size_t) {
         // Eigen's exp never returns 0, hence the selection.
         return static_cast<double>(
             (nearest_m2 < kNotFoundM2).select((factor * nearest_m2).exp(), 0.0F).sum());
@@ -77,8 +95,7 @@ double scan_score(const EndPointMap& map, const ScanPoints& points, const Pose2&
 double scan_log_likelihood(const EndPointMap& map, const ScanPoints& points,
                            const Pose2& T_map_base, const GmappingParams& params) {
   const double sum_m2 = sum_over_blocks(
-      map, points, T_map_base, params.kernel_size_cells,
-      [](const Block& nearest_m2, std::size_t count) {
+      map, points, T_map_base, params, [](const Block& nearest_m2, std::size_t count) {
         const auto used = nearest_m2.head(static_cast<Eigen::Index>(count));
         return static_cast<double>(
             (used < kNotFoundM2).select(used, static_cast<float>(kUnmatchedM2)).sum());

@@ -1,8 +1,8 @@
 // How well a scan fits a particle's map: the score the hill climb maximises and the log-likelihood
 // that weighs the particle. Both compare each end point with the nearest cell mean around it.
-// Deviation: the test for a free cell in front of the end point is left out. The original has it,
-// but it looks the cell up half a map away and always passes; without it the result is
-// bit-identical.
+// The test for a free cell in front of the end point is made where the parameters ask for it. The
+// original has it, but looks the cell up half a map away, where it always passes: without it the
+// result is bit-identical.
 #pragma once
 
 #include "baselines/gmapping/end_point_map.hpp"

@@ -40,7 +40,11 @@ SystemInfo gmapping_entry() {
   info.needs_wheels = true;
   info.is_stochastic = true;
   set_factory<gmapping::GmappingParams>(
-      info, {{"shipped", "as its ROS node ships", {}}},
+      info,
+      {{"as-shipped", "as its ROS node ships", {}},
+       {"as-published",
+        "as its paper says: poses drawn around the match, a free cell before every end point",
+        gmapping::published_params()}},
       [](const gmapping::GmappingParams& params, const SystemRequest& request) -> SystemResult {
         return gmapping::make_gmapping(params, request.robot, rng_of(request), request.threads);
       });
@@ -55,7 +59,7 @@ SystemInfo karto_entry() {
   info.default_backend = "levenberg";
   set_factory<karto::KartoParams>(
       info,
-      {{"shipped", "as the original ships", {}},
+      {{"as-shipped", "as the original ships", {}},
        {"corrected",
         "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
         karto::corrected_params()}},
@@ -88,7 +92,7 @@ SystemInfo mrpt_icp_entry() {
   info.name = "mrpt-icp";
   info.description = "MRPT's own ICP-SLAM, a third-party reference";
   set_factory<mrpt::MrptIcpParams>(
-      info, {{"shipped", "as MRPT's classic example is configured", {}}},
+      info, {{"as-shipped", "as MRPT's classic example is configured", {}}},
       [](const mrpt::MrptIcpParams& params, const SystemRequest& request) -> SystemResult {
         return mrpt::make_mrpt_icp(params, request.robot);
       });
@@ -102,7 +106,7 @@ SystemInfo mrpt_rbpf_entry() {
   info.needs_wheels = true;
   info.is_stochastic = true;
   set_factory<mrpt::MrptRbpfParams>(
-      info, {{"shipped", "as MRPT's grid mapping example is configured", {}}},
+      info, {{"as-shipped", "as MRPT's grid mapping example is configured", {}}},
       [](const mrpt::MrptRbpfParams& params, const SystemRequest& request) -> SystemResult {
         return mrpt::make_mrpt_rbpf(params, request.robot, rng_of(request));
       });

@@ -76,13 +76,13 @@ void append_unknown_overrides(const Cases& cases, std::vector<std::string>& sent
 void append_configuration(const Cases& cases, std::vector<std::string>& sentences) {
   std::set<std::string> shipped;
   for (const Series& series : cases.series()) {
-    if (series.profile == "shipped" && series.overrides.empty()) shipped.insert(series.system);
+    if (series.profile == "as-shipped" && series.overrides.empty()) shipped.insert(series.system);
   }
   if (!shipped.empty()) {
     sentences.push_back(fmt::format(
-        "Profile shipped is what users of the original programs get: {}. What else was "
-        "run is named in the label: a profile, or what was set by hand (set: ...). No profile "
-        "shipped was tuned for these data.",
+        "Profile as-shipped is what users of the original programs get: {}. What else was "
+        "run is named in the label: a profile, or what was set by hand (set: ...). No such "
+        "profile was tuned for these data.",
         fmt::join(shipped, ", ")));
   }
   append_unknown_overrides(cases, sentences);

@@ -34,7 +34,7 @@ struct Request {
   std::string folder;                  // of the results
   std::string dataset;                 // as the command line takes it
   bool is_found = true;                // the record says where the data are
-  std::string system;                  // "karto@shipped"
+  std::string system;                  // "karto@as-shipped"
   std::vector<std::string> backends;   // in the order of their names
   std::vector<std::string> overrides;  // "karto.key=value"
   Seeds seeds;

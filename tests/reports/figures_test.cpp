@@ -167,7 +167,7 @@ TEST(StageFigure, WithoutTimesIsNone) {
 TEST(PaperCounterpart, IsTheShippedProfileOnly) {
   const auto run = reports::testing::paper_like_run();
   std::vector<reports::Case> all;
-  for (const char* profile : {"shipped", "corrected"}) {
+  for (const char* profile : {"as-shipped", "corrected"}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       all.push_back({reports::testing::synthetic_result(run, {"karto", 0.1}, seed), {}});
       all.back().result.profile = profile;

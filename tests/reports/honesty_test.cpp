@@ -115,10 +115,10 @@ TEST(KeyDistanceTable, MarksNothingThatASystemOutsideItBeats) {
 TEST(Caveats, ClaimShippedParametersOnlyOfThoseThatHaveThem) {
   std::vector<RunResult> results = synthetic_results({{"karto", 0.06}, {"gmapping", 0.1}}, 2);
   for (RunResult& result : results) {
-    if (result.system == "karto") result.profile = "shipped";
+    if (result.system == "karto") result.profile = "as-shipped";
   }
   EXPECT_THAT(html::caveats(make_cases(results)),
-              Contains(AllOf(StartsWith("Profile shipped"), HasSubstr("get: karto."))));
+              Contains(AllOf(StartsWith("Profile as-shipped"), HasSubstr("get: karto."))));
 }
 
 TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
@@ -264,7 +264,7 @@ TEST(Reproduce, KeepsRevisionsAndLogsOfOneNameInFoldersOfTheirOwn) {
 TEST(SetByHand, NeverPassesForShipped) {
   std::vector<RunResult> results = synthetic_results({{"karto", 0.06}, {"fusion-paper", 0.02}}, 2);
   for (RunResult& result : results) {
-    result.profile = "shipped";
+    result.profile = "as-shipped";
     result.overrides.emplace();
     if (result.system == "karto") result.overrides = Texts{{"use_loop_closing", "false"}};
   }
@@ -277,7 +277,7 @@ TEST(SetByHand, NeverPassesForShipped) {
   const std::string lengths = tables::to_csv(tables::key_distance_table(cases));
   EXPECT_THAT(lengths, AllOf(Not(HasSubstr("13.415")), HasSubstr("13.897")));
   EXPECT_THAT(html::caveats(cases),
-              Contains(AllOf(StartsWith("Profile shipped"), HasSubstr("get: fusion-paper."))));
+              Contains(AllOf(StartsWith("Profile as-shipped"), HasSubstr("get: fusion-paper."))));
 }
 
 TEST(SetByHand, LeavesTheShippedSeriesItsNameAndThePapersValue) {

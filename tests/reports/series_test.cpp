@@ -121,9 +121,9 @@ TEST(SeriesOrder, PutsWhatASystemShipsWithBeforeItsOtherProfiles) {
   RunResult corrected = karto_result();
   corrected.profile = "corrected";
   RunResult shipped = karto_result();
-  shipped.profile = "shipped";
+  shipped.profile = "as-shipped";
   EXPECT_EQ(labels(make_cases({corrected, shipped})),
-            (std::vector<std::string>{"karto@shipped", "karto@corrected"}));
+            (std::vector<std::string>{"karto@as-shipped", "karto@corrected"}));
 }
 
 }  // namespace

@@ -76,6 +76,25 @@ TEST(Gmapping, TracksARoomThatTheOdometryMisjudgesByThreePercent) {
   EXPECT_GT(result.estimate.counters.at("key_scans"), 20);
 }
 
+TEST(Gmapping, AsPublishedTracksItTooAndAlikeWithAnyNumberOfThreads) {
+  const SensorLog log = testing::room_log();
+  GmappingParams params = published_params();
+  params.num_particles = 8;
+  params.linear_update_m = params.angular_update_rad = 0.2;
+  params.beam_tilt_steps = 0;
+  const SlamRun result = run(log, 1, 1, params);
+  for (std::size_t i = 0; i < log.truth->size(); ++i) {
+    EXPECT_LT((result.estimate.trajectory[i].T_map_base.translation_m() -
+               (*log.truth)[i].T_map_base.translation_m())
+                  .norm(),
+              0.05)
+        << i;
+  }
+  EXPECT_NE(result.estimate.trajectory.back().T_map_base,
+            run(log, 2, 1, params).estimate.trajectory.back().T_map_base);
+  expect_same(result, run(log, 1, 2, params));
+}
+
 TEST(Gmapping, GivesTheSameBytesForTheSameSeed) {
   const SensorLog log = testing::room_log();
   expect_same(run(log, 5, 1, eager_params()), run(log, 5, 1, eager_params()));

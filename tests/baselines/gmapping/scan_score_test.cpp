@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "slam/core/rng.hpp"
 
@@ -117,6 +118,30 @@ RC_GTEST_PROP(ScanScore, EqualsThePlainDefinition, (std::uint64_t seed)) {
             kFloatRelative * score + border_slack);
   RC_ASSERT(std::abs(scan_log_likelihood(map, points, pose, params) - log_likelihood) <=
             kFloatRelative * std::abs(log_likelihood) + border_slack * 0.5 / 0.075);
+}
+
+// A wall along y at x = 1 seen from the left, with a second layer of hits behind its face.
+TEST(ScanScore, WithAFreeFrontAskedForLooksAtTheFaceOfAWallOnly) {
+  ScanPoints face{{1.01F}, {0.525F}, {1.0F}, {0.0F}};
+  ScanPoints both{{1.01F, 1.06F}, {0.525F, 0.525F}, {1.0F, 1.0F}, {0.0F, 0.0F}};
+  const EndPointMap map = map_of(both);
+  GmappingParams params;
+  params.require_free_front = true;
+  // On the second layer; the cell before it holds the first.
+  const ScanPoints behind{{1.06F}, {0.525F}, {1.0F}, {0.0F}};
+  EXPECT_NEAR(scan_score(map, behind, Pose2(), {}), 1, 1e-6);
+  EXPECT_NEAR(scan_score(map, behind, Pose2(), params), std::exp(-0.05 * 0.05 / 0.05), 1e-4);
+  EXPECT_NEAR(scan_score(map, face, Pose2(), params), 1, 1e-6);
+}
+
+TEST(ScanScore, TheFrontTurnsWithThePose) {
+  const ScanPoints wall{{1.01F, 1.06F}, {0.525F, 0.525F}, {1.0F, 1.0F}, {0.0F, 0.0F}};
+  GmappingParams params;
+  params.require_free_front = true;
+  // Seen from the other side the second layer is the face.
+  const Pose2 turned(0, 0, std::numbers::pi);
+  const ScanPoints from_the_right{{-1.06F}, {-0.525F}, {1.0F}, {0.0F}};
+  EXPECT_NEAR(scan_score(map_of(wall), from_the_right, turned, params), 1, 1e-6);
 }
 
 }  // namespace

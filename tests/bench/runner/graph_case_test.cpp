@@ -283,7 +283,7 @@ TEST_F(GraphCase, IsRefusedWhereItsBackEndHasNoSuchParameter) {
 TEST_F(GraphCase, OfASystemThatNeedsALogIsRefusedAndTheOtherWayRound) {
   CaseSpec spec = only_case("graph-batch", "gauss-newton");
   spec.system = "karto";
-  spec.profile = "shipped";
+  spec.profile = "as-shipped";
   EXPECT_FALSE(run_case(spec, {}, folder_.path(), 1).has_value());
   spec = only_case("graph-batch", "gauss-newton");
   spec.data_kind = DataKind::kSimulated;

@@ -22,7 +22,7 @@ CaseSpec spec_of(std::uint64_t seed) {
   CaseSpec spec;
   spec.suite = "test";
   spec.system = "karto";
-  spec.profile = "shipped";
+  spec.profile = "as-shipped";
   spec.backend = "levenberg";
   spec.dataset = "paper-corridor";
   spec.data_source = "paper-corridor";

@@ -53,7 +53,7 @@ TEST(Suite, KeepsEverythingTheFileSays) {
   const Result<Suite> suite = parse(kGood);
   ASSERT_TRUE(suite.has_value()) << suite.error().to_line();
   EXPECT_EQ(suite->systems,
-            (std::vector<SystemChoice>{{"karto", "corrected"}, {"gmapping", "shipped"}}));
+            (std::vector<SystemChoice>{{"karto", "corrected"}, {"gmapping", "as-shipped"}}));
   EXPECT_EQ(suite->num_seeds, 3);
   EXPECT_EQ(suite->first_seed, 7U);
   EXPECT_EQ(suite->limits, (CaseLimits{1.5, 100}));
@@ -67,12 +67,12 @@ TEST(Suite, GivesASystemBackEndsOfItsOwn) {
   ASSERT_TRUE(suite.has_value()) << suite.error().to_line();
   EXPECT_EQ(suite->backends_for({"karto", "corrected"}),
             (std::vector<std::string>{"ceres", "isam2"}));
-  EXPECT_TRUE(suite->backends_for({"karto", "shipped"}).empty());
+  EXPECT_TRUE(suite->backends_for({"karto", "as-shipped"}).empty());
 }
 
 TEST(Suite, RefusesBackEndsOfWhatIsNotRunOrTakesNone) {
   const std::string table = std::string(kGood) + "[backends_of]\n";
-  EXPECT_REFUSED(table + "karto = [\"ceres\"]\n", "the suite does not run karto@shipped");
+  EXPECT_REFUSED(table + "karto = [\"ceres\"]\n", "the suite does not run karto@as-shipped");
   EXPECT_REFUSED(table + "gmapping = [\"ceres\"]\n", "gmapping takes no back-end");
   EXPECT_REFUSED(table + "\"karto@corrected\" = [\"magic\"]\n", "unknown back-end \"magic\"");
   EXPECT_REFUSED(table + "kartoo = [\"ceres\"]\n", "unknown system \"kartoo\"");
@@ -169,7 +169,7 @@ TEST(Suites, AreFoundByNameAndByPathAndTheKnownOnesAreNamed) {
 }
 
 TEST(Overrides, UnknownNamesAndBrokenRulesAreListedTogetherInAShortLine) {
-  const auto refused = resolve_overrides(*find_system("karto"), "shipped",
+  const auto refused = resolve_overrides(*find_system("karto"), "as-shipped",
                                          {{"bufer_size_scans", "5"}, {"buffer_size_scans", "0"}});
   ASSERT_FALSE(refused.has_value());
   const std::string line = refused.error().to_line();

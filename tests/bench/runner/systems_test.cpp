@@ -77,13 +77,13 @@ TEST(Systems, HaveNamesOfTheirOwnAndParametersWithMeanings) {
 
 TEST(Systems, ResolveEveryParameterAndRefuseUnknownOnes) {
   const SystemInfo karto = *find_system("karto");
-  const auto values = karto.resolve("shipped", {{"buffer_size_scans", "5"}});
+  const auto values = karto.resolve("as-shipped", {{"buffer_size_scans", "5"}});
   ASSERT_TRUE(values.has_value());
   EXPECT_EQ(values->at("buffer_size_scans"), "5");
-  EXPECT_EQ(values->size(), karto.param_table("shipped").size());
-  EXPECT_NE(karto.resolve("shipped", {})->at("count_no_returns"),
+  EXPECT_EQ(values->size(), karto.param_table("as-shipped").size());
+  EXPECT_NE(karto.resolve("as-shipped", {})->at("count_no_returns"),
             karto.resolve("corrected", {})->at("count_no_returns"));
-  EXPECT_FALSE(karto.resolve("shipped", {{"speed", "5"}}).has_value());
+  EXPECT_FALSE(karto.resolve("as-shipped", {{"speed", "5"}}).has_value());
   EXPECT_FALSE(karto.resolve("nope", {}).has_value());
 }
 
@@ -122,7 +122,7 @@ TEST(Systems, SayWhichSensorTheyMiss) {
 }
 
 TEST(SystemChoice, ReadsNamesWithAndWithoutAProfile) {
-  EXPECT_EQ(parse_system_choice("karto").value(), (SystemChoice{"karto", "shipped"}));
+  EXPECT_EQ(parse_system_choice("karto").value(), (SystemChoice{"karto", "as-shipped"}));
   EXPECT_EQ(parse_system_choice("karto@corrected").value(), (SystemChoice{"karto", "corrected"}));
   EXPECT_EQ(parse_system_choice("karto@").error().what, "unknown profile \"\" of system karto");
   EXPECT_NE(parse_system_choice("Karto").error().expected.find("karto"), std::string::npos);

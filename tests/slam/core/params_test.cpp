@@ -10,7 +10,7 @@ struct ExampleParams {
   int num_beams = 360;
   unsigned num_threads = 1;
   bool use_odometry = true;
-  std::string profile = "shipped";
+  std::string profile = "as-shipped";
   double offset_m = 0;
 
   static void visit(auto& p, auto&& v) {
