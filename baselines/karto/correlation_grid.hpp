@@ -62,7 +62,7 @@ class CorrelationGrid {
   }
   // At least kMargin readable bytes lie on either side of [0, num_cells()).
   [[nodiscard]] const std::uint8_t* cells() const { return bytes_.data() + kMargin; }
-  static constexpr int kMargin = 64;
+  static constexpr int kMargin = 128;
 
  private:
   void stamp(std::int32_t centre_index);

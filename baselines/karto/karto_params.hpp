@@ -218,4 +218,8 @@ struct KartoParams {
 // What the paper intends: no-returns ignored, look-ups checked by row, headings weighted.
 KartoParams corrected_params();
 
+// What slam_toolbox, which grew out of Karto, sets in its online asynchronous mode; the method is
+// Karto's.
+KartoParams slam_toolbox_params();
+
 }  // namespace corridor::karto

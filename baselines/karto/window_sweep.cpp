@@ -17,7 +17,6 @@ namespace {
 constexpr int kBytes = 32;          // of one vector
 constexpr int kLanes = kBytes / 2;  // 16-bit sums in it
 constexpr int kSmallWindow = 32;    // not worth a second thread
-constexpr int kTileRows = 4;        // rows of positions that are summed at once
 // Beams between two looks at whether a tile can still reach the sum that is asked for; as many go
 // through all headings at once where none is.
 constexpr std::size_t kBeamsPerChunk = 32;
@@ -28,7 +27,7 @@ constexpr int kByteBits = 8;
 static_assert(std::endian::native == std::endian::little);
 static_assert(2 * kOccupied <= std::numeric_limits<std::uint8_t>::max());
 // The lanes beyond the window read past the last row.
-static_assert(CorrelationGrid::kMargin >= 2 * kBytes);
+static_assert(CorrelationGrid::kMargin >= 3 * kBytes);
 
 // Vectors of GCC and Clang, for whatever instructions the build allows: arrays would travel through
 // memory, several times slower.
@@ -41,46 +40,64 @@ Bytes load(const std::uint8_t* cells) {
   return bytes;
 }
 
-// 16-bit sums of the positions of kRows rows under one vector of grid cells each: those at even
-// cells, and with steps of one cell those at odd cells as well.
-template <int kStep, int kRows>
-struct TileSums {
-  static constexpr int kColumns = kBytes / kStep;
+// Rows of positions that are summed at once, and vectors of grid cells along each.
+template <int kStepCells, int kNumRows, int kNumVectors>
+struct TileShape {
+  static constexpr int kStep = kStepCells;
+  static constexpr int kRows = kNumRows;
+  static constexpr int kVectors = kNumVectors;
+  static constexpr int kColumnsPerVector = kBytes / kStep;
+  static constexpr int kColumns = kVectors * kColumnsPerVector;
+};
 
+// 16-bit sums of the positions of a tile: those at even cells, and with steps of one cell those at
+// odd cells as well.
+template <class Shape>
+class TileSums {
+ public:
   void add(const std::uint8_t* cells, std::ptrdiff_t row_bytes,
            std::span<const std::int32_t> beams) {
     std::size_t i = 0;
     // Two values fit into a byte.
     for (; i + 2 <= beams.size(); i += 2) {
-      for (int row = 0; row < kRows; ++row) {
-        const std::uint8_t* const row_cells = cells + row * row_bytes;
-        add(row, load(row_cells + beams[i]) + load(row_cells + beams[i + 1]));
+      for (int v = 0; v < kNumVectors; ++v) {
+        const std::uint8_t* const at = cells + offset_of(v, row_bytes);
+        add(v, load(at + beams[i]) + load(at + beams[i + 1]));
       }
     }
     if (i == beams.size()) return;
-    for (int row = 0; row < kRows; ++row) add(row, load(cells + row * row_bytes + beams[i]));
+    for (int v = 0; v < kNumVectors; ++v) add(v, load(cells + offset_of(v, row_bytes) + beams[i]));
   }
 
-  // sums[i] += sum at column i of the row.
+  // sums[i] += sum at column i of the row, for i < count.
   void flush(int row, int count, std::uint32_t* sums) const {
-    for (int i = 0; i < count; ++i) {
-      if constexpr (kStep == 2) {
-        sums[i] += even[row][i];
-      } else {
-        sums[i] += i % 2 == 0 ? even[row][i / 2] : odd[row][i / 2];
+    for (int first = 0; first < count; first += Shape::kColumnsPerVector) {
+      const int v = row * Shape::kVectors + first / Shape::kColumnsPerVector;
+      const int end = std::min(count - first, Shape::kColumnsPerVector);
+      for (int i = 0; i < end; ++i) {
+        if constexpr (Shape::kStep == 2) {
+          sums[first + i] += even_[v][i];
+        } else {
+          sums[first + i] += i % 2 == 0 ? even_[v][i / 2] : odd_[v][i / 2];
+        }
       }
     }
   }
 
  private:
-  void add(int row, Bytes bytes) {
+  static constexpr int kNumVectors = Shape::kRows * Shape::kVectors;
+
+  static std::ptrdiff_t offset_of(int vector, std::ptrdiff_t row_bytes) {
+    return vector / Shape::kVectors * row_bytes + vector % Shape::kVectors * kBytes;
+  }
+  void add(int v, Bytes bytes) {
     const auto pairs = reinterpret_cast<Lanes>(bytes);
-    even[row] += pairs & kLowByte;
-    if constexpr (kStep == 1) odd[row] += pairs >> kByteBits;
+    even_[v] += pairs & kLowByte;
+    if constexpr (Shape::kStep == 1) odd_[v] += pairs >> kByteBits;
   }
 
-  std::array<Lanes, kRows> even{};
-  std::array<Lanes, kStep == 1 ? kRows : 1> odd{};
+  std::array<Lanes, kNumVectors> even_{};
+  std::array<Lanes, Shape::kStep == 1 ? kNumVectors : 1> odd_{};
 };
 
 class Sweep {
@@ -172,41 +189,47 @@ class Sweep {
     return {first_at_or_above(0), first_at_or_above(limit)};
   }
 
+  // A wide window by wide tiles, which use up the cache lines they touch.
   template <int kStep>
   void add_tiles(std::span<const std::int32_t> beams, std::uint32_t min_sum,
                  std::uint32_t* sums) const {
     int row = 0;
-    for (; row + kTileRows <= window_.count; row += kTileRows) {
-      add_tile_row<kStep, kTileRows>(beams, row, min_sum, sums);
-    }
-    if (row + 3 == window_.count) return add_tile_row<kStep, 3>(beams, row, min_sum, sums);
-    for (; row < window_.count; ++row) add_tile_row<kStep, 1>(beams, row, min_sum, sums);
+    if (window_.count > 2 * kBytes / kStep)
+      row = add_rows<TileShape<kStep, 2, 3>>(beams, row, min_sum, sums);
+    row = add_rows<TileShape<kStep, 4, 1>>(beams, row, min_sum, sums);
+    row = add_rows<TileShape<kStep, 3, 1>>(beams, row, min_sum, sums);
+    add_rows<TileShape<kStep, 1, 1>>(beams, row, min_sum, sums);
   }
 
-  template <int kStep, int kRows>
-  void add_tile_row(std::span<const std::int32_t> beams, int row, std::uint32_t min_sum,
-                    std::uint32_t* sums) const {
-    constexpr int kColumns = TileSums<kStep, kRows>::kColumns;
-    for (int column = 0; column < window_.count; column += kColumns) {
-      add_tile<kStep, kRows>(beams, row, column, min_sum, sums);
+  // As many rows from `row` on as tiles of this shape take; the first row that is left.
+  template <class Shape>
+  int add_rows(std::span<const std::int32_t> beams, int row, std::uint32_t min_sum,
+               std::uint32_t* sums) const {
+    for (; row + Shape::kRows <= window_.count; row += Shape::kRows) {
+      for (int column = 0; column < window_.count; column += Shape::kColumns) {
+        add_tile<Shape>(beams, row, column, min_sum, sums);
+      }
     }
+    return row;
   }
 
-  template <int kStep, int kRows>
+  template <class Shape>
   void add_tile(std::span<const std::int32_t> beams, int first_row, int first_column,
                 std::uint32_t min_sum, std::uint32_t* sums) const {
-    const std::uint8_t* const cells = grid_.cells() + index_of(first_row) + kStep * first_column;
-    const std::ptrdiff_t row_bytes = std::ptrdiff_t{kStep} * grid_.stride();
-    const int count = std::min(TileSums<kStep, kRows>::kColumns, window_.count - first_column);
+    const std::uint8_t* const cells =
+        grid_.cells() + index_of(first_row) + Shape::kStep * first_column;
+    const std::ptrdiff_t row_bytes = std::ptrdiff_t{Shape::kStep} * grid_.stride();
+    const int count = std::min(Shape::kColumns, window_.count - first_column);
     while (!beams.empty()) {
       const std::size_t num_beams = std::min(beams.size(), kBeamsPerChunk);
-      TileSums<kStep, kRows> tile;
+      TileSums<Shape> tile;
       tile.add(cells, row_bytes, beams.first(num_beams));
       beams = beams.subspan(num_beams);
       std::uint32_t largest = 0;
-      for (int row = 0; row < kRows; ++row) {
+      for (int row = 0; row < Shape::kRows; ++row) {
         std::uint32_t* const row_sums = sums + (first_row + row) * window_.count + first_column;
         tile.flush(row, count, row_sums);
+        if (min_sum == 0) continue;
         largest = std::max(largest, *std::max_element(row_sums, row_sums + count));
       }
       if (largest + kOccupied * beams.size() < min_sum) return;

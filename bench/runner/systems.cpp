@@ -62,7 +62,9 @@ SystemInfo karto_entry() {
       {{"as-shipped", "as the original ships", {}},
        {"corrected",
         "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
-        karto::corrected_params()}},
+        karto::corrected_params()},
+       {"slam-toolbox", "the parameters of slam_toolbox, with Karto's method",
+        karto::slam_toolbox_params()}},
       [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
         auto back_end = back_end_for(request, "levenberg", backend::spa_params());
         if (!back_end) return tl::make_unexpected(back_end.error());
