@@ -12,13 +12,13 @@
 
 namespace corridor::karto {
 
-class CorrelativeMatcher final : public ScanMatcher {
+class CorrelativeMatcher {
  public:
   CorrelativeMatcher(const GridSpec& spec, const KartoParams& params);
 
+  // As ScanMatcher says.
   MatchResult match(const KeyScan& scan, const Pose2& T_map_sensor_predicted,
-                    std::span<const KeyScan* const> local_map,
-                    const MatchOptions& options) override;
+                    std::span<const KeyScan* const> local_map, const MatchOptions& options);
 
  private:
   struct Stage {

@@ -25,9 +25,12 @@ StepReport nothing_to_do(Timestamp stamp) {
   return report;
 }
 
-std::unique_ptr<ScanMatcher> make_correlative_matcher(const GridSpec& spec,
-                                                      const KartoParams& params) {
-  return std::make_unique<CorrelativeMatcher>(spec, params);
+ScanMatcher make_correlative_matcher(const GridSpec& spec, const KartoParams& params) {
+  const auto matcher = std::make_shared<CorrelativeMatcher>(spec, params);
+  return [matcher](const KeyScan& scan, const Pose2& T_map_sensor_predicted,
+                   std::span<const KeyScan* const> local_map, const MatchOptions& options) {
+    return matcher->match(scan, T_map_sensor_predicted, local_map, options);
+  };
 }
 
 double range_threshold_of(const KartoParams& params, const RobotModel& robot,

@@ -69,7 +69,7 @@ PoseWithCovariance Mapper::match_with_buffer() {
   const auto in_stage = clock_.enter(Stage::kMatch);
   ++counters_.sequential_matches;
   const MatchResult result =
-      match(*sequential_matchers_.local(), newest().T_map_sensor(), buffer_, kSequential);
+      match(sequential_matchers_.local(), newest().T_map_sensor(), buffer_, kSequential);
   return {result.T_map_sensor, result.covariance_map};
 }
 
@@ -120,7 +120,7 @@ std::vector<MatchResult> Mapper::match_with(const std::vector<Chain>& chains) {
     for (std::size_t i = next++; i < chains.size(); i = next++) {
       const std::size_t chain = by_size[i];
       results[chain] =
-          match(*sequential_matchers_.local(), newest().T_map_sensor(), chains[chain], kNearChain);
+          match(sequential_matchers_.local(), newest().T_map_sensor(), chains[chain], kNearChain);
     }
   };
   const auto num_tasks = std::min<std::size_t>(
@@ -165,14 +165,14 @@ bool Mapper::try_loop(const Chain& chain) {
   const MatchOptions in_wide_window{.use_penalty = false,
                                     .use_refinement = false,
                                     .min_response = params_.loop_min_response_coarse};
-  const MatchResult coarse = match(*loop_matcher_, newest().T_map_sensor(), chain, in_wide_window);
+  const MatchResult coarse = match(loop_matcher_, newest().T_map_sensor(), chain, in_wide_window);
   const bool is_accepted = coarse.response > params_.loop_min_response_coarse &&
                            coarse.covariance_map(0, 0) < params_.loop_max_variance_coarse_m2 &&
                            coarse.covariance_map(1, 1) < params_.loop_max_variance_coarse_m2;
   if (!is_accepted) return false;
   ++counters_.fine_loop_matches;
   const MatchResult fine =
-      match(*sequential_matchers_.local(), coarse.T_map_sensor, chain, kLoopFine);
+      match(sequential_matchers_.local(), coarse.T_map_sensor, chain, kLoopFine);
   if (fine.response < params_.loop_min_response_fine) return false;
   ++counters_.loop_closures;
   move(newest(), fine.T_map_sensor);
@@ -204,11 +204,11 @@ void Mapper::move(KeyScan& scan, const Pose2& T_map_sensor) {
   references_m_[scan.id] = scan.reference_map_m();
 }
 
-MatchResult Mapper::match(ScanMatcher& matcher, const Pose2& T_map_sensor_predicted,
+MatchResult Mapper::match(const ScanMatcher& matcher, const Pose2& T_map_sensor_predicted,
                           const Chain& local_map, const MatchOptions& options) const {
   std::vector<const KeyScan*> scans;
   for (KeyScanId id = local_map.first; id <= local_map.last; ++id) scans.push_back(&scans_[id]);
-  return matcher.match(newest(), T_map_sensor_predicted, scans, options);
+  return matcher(newest(), T_map_sensor_predicted, scans, options);
 }
 
 }  // namespace corridor::karto

@@ -63,15 +63,15 @@ class Mapper {
 
   void move(KeyScan& scan, const Pose2& T_map_sensor);
   // Of the newest scan.
-  MatchResult match(ScanMatcher& matcher, const Pose2& T_map_sensor_predicted,
+  MatchResult match(const ScanMatcher& matcher, const Pose2& T_map_sensor_predicted,
                     const Chain& local_map, const MatchOptions& options) const;
 
   KartoParams params_;
   StageClock& clock_;
   tbb::task_arena arena_;
   // One per thread: near chains are matched at the same time.
-  tbb::enumerable_thread_specific<std::unique_ptr<ScanMatcher>> sequential_matchers_;
-  std::unique_ptr<ScanMatcher> loop_matcher_;
+  tbb::enumerable_thread_specific<ScanMatcher> sequential_matchers_;
+  ScanMatcher loop_matcher_;
   PoseGraph pose_graph_;
   ScanLinks links_;
   Chain buffer_;

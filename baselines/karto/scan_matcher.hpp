@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <span>
 
 #include "baselines/karto/correlation_grid.hpp"
@@ -27,19 +26,12 @@ struct MatchResult {
   double response = 0;  // 0 to 1: share of beams that end on a surface of the local map
 };
 
-// Its memory belongs to one thread at a time.
-class ScanMatcher {
- public:
-  virtual ~ScanMatcher() = default;
-
-  // Finds the scan's pose against the end points of `local_map`, within the window around
-  // `T_map_sensor_predicted`. Only surfaces facing the predicted position count.
-  virtual MatchResult match(const KeyScan& scan, const Pose2& T_map_sensor_predicted,
-                            std::span<const KeyScan* const> local_map,
-                            const MatchOptions& options) = 0;
-};
-
-using MatcherFactory =
-    std::function<std::unique_ptr<ScanMatcher>(const GridSpec&, const KartoParams&)>;
+// Finds a scan's pose against the end points of `local_map`, within the window around
+// `T_map_sensor_predicted`. Only surfaces facing the predicted position count. One that is made has
+// memory of its own, which belongs to one thread at a time.
+using ScanMatcher = std::function<MatchResult(
+    const KeyScan& scan, const Pose2& T_map_sensor_predicted,
+    std::span<const KeyScan* const> local_map, const MatchOptions& options)>;
+using MatcherFactory = std::function<ScanMatcher(const GridSpec&, const KartoParams&)>;
 
 }  // namespace corridor::karto

@@ -11,6 +11,8 @@
 #include "baselines/mrpt/mrpt_rbpf.hpp"
 #include "bench/runner/back_ends.hpp"
 #include "bench/runner/system_entry.hpp"
+#include "bench/tuning/tuned_params.hpp"
+#include "slam/core/expect.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/fusion/fusion_slam.hpp"
 
@@ -33,6 +35,22 @@ Result<std::unique_ptr<backend::BackEnd>> back_end_for(
   return back_end;
 }
 
+// The default profile (the first) with what a search found on top, if there was one.
+template <class P>
+std::vector<Profile<P>> with_tuned(std::string_view system, std::vector<Profile<P>> profiles) {
+  for (const tuning::TunedParams& tuned : tuning::all_tuned_params()) {
+    if (tuned.system != system) continue;
+    const Result<P> params = with_overrides(profiles.front().params, tuned.overrides, "tuned");
+    CORRIDOR_EXPECT(params.has_value());
+    profiles.push_back(
+        {"tuned",
+         fmt::format("the best of {} candidates on {} development worlds (search {})",
+                     tuned.num_candidates, tuned.num_worlds, tuned.search_sha256.substr(0, 12)),
+         *params});
+  }
+  return profiles;
+}
+
 SystemInfo gmapping_entry() {
   SystemInfo info;
   info.name = "gmapping";
@@ -41,10 +59,12 @@ SystemInfo gmapping_entry() {
   info.is_stochastic = true;
   set_factory<gmapping::GmappingParams>(
       info,
-      {{"as-shipped", "as its ROS node ships", {}},
-       {"as-published",
-        "as its paper says: poses drawn around the match, a free cell before every end point",
-        gmapping::published_params()}},
+      with_tuned<gmapping::GmappingParams>(
+          "gmapping",
+          {{"as-shipped", "as its ROS node ships", {}},
+           {"as-published",
+            "as its paper says: poses drawn around the match, a free cell before every end point",
+            gmapping::published_params()}}),
       [](const gmapping::GmappingParams& params, const SystemRequest& request) -> SystemResult {
         return gmapping::make_gmapping(params, request.robot, rng_of(request), request.threads);
       });
@@ -59,12 +79,14 @@ SystemInfo karto_entry() {
   info.default_backend = "levenberg";
   set_factory<karto::KartoParams>(
       info,
-      {{"as-shipped", "as the original ships", {}},
-       {"corrected",
-        "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
-        karto::corrected_params()},
-       {"slam-toolbox", "the parameters of slam_toolbox, with Karto's method",
-        karto::slam_toolbox_params()}},
+      with_tuned<karto::KartoParams>(
+          "karto",
+          {{"as-shipped", "as the original ships", {}},
+           {"corrected",
+            "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
+            karto::corrected_params()},
+           {"slam-toolbox", "the parameters of slam_toolbox, with Karto's method",
+            karto::slam_toolbox_params()}}),
       [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
         auto back_end = back_end_for(request, "levenberg", backend::spa_params());
         if (!back_end) return tl::make_unexpected(back_end.error());
@@ -138,7 +160,9 @@ SystemInfo fusion_entry() {
   info.name = "fusion";
   info.description = "LiDAR, IMU and wheels in a factor graph, per direction, with loop closing";
   info.default_backend = "gauss-newton";
-  set_factory<fusion::FusionParams>(info, {{"default", "the defaults", {}}}, make_fusion_system);
+  set_factory<fusion::FusionParams>(
+      info, with_tuned<fusion::FusionParams>("fusion", {{"default", "the defaults", {}}}),
+      make_fusion_system);
   return info;
 }
 

@@ -92,8 +92,9 @@ RC_GTEST_PROP(CorrelativeMatcher, GivesThatForBeamsFarBeyondTheGridToo, (std::ui
 }
 
 template <class Matcher>
-std::unique_ptr<ScanMatcher> make_matcher(const GridSpec& spec, const KartoParams& params) {
-  return std::make_unique<Matcher>(spec, params);
+ScanMatcher make_matcher(const GridSpec& spec, const KartoParams& params) {
+  const auto matcher = std::make_shared<Matcher>(spec, params);
+  return [matcher](const auto&... arguments) { return matcher->match(arguments...); };
 }
 
 // Two rounds through the room, every scan a key scan, with near chains and closed loops.

@@ -16,7 +16,7 @@
 
 namespace corridor::karto::testing {
 
-class PlainMatcher final : public ScanMatcher {
+class PlainMatcher {
  public:
   PlainMatcher(const GridSpec& spec, const KartoParams& params)
       : spec_(spec),
@@ -27,8 +27,7 @@ class PlainMatcher final : public ScanMatcher {
         stride_((side_ + 7) / 8 * 8) {}
 
   MatchResult match(const KeyScan& scan, const Pose2& predicted,
-                    std::span<const KeyScan* const> local_map,
-                    const MatchOptions& options) override {
+                    std::span<const KeyScan* const> local_map, const MatchOptions& options) {
     corner_m_ = predicted.translation_m() -
                 Eigen::Vector2d::Constant(0.5 * (side_ - 1) * spec_.resolution_m);
     draw(predicted.translation_m(), local_map);
