@@ -121,6 +121,16 @@ TEST(Caveats, ClaimShippedParametersOnlyOfThoseThatHaveThem) {
               Contains(AllOf(StartsWith("Profile as-shipped"), HasSubstr("get: karto."))));
 }
 
+TEST(Caveats, SayWhatATunedProfileIs) {
+  std::vector<RunResult> results = synthetic_results({{"karto", 0.06}, {"gmapping", 0.1}}, 2);
+  EXPECT_THAT(html::caveats(make_cases(results)), Not(Contains(StartsWith("Profile tuned"))));
+  for (RunResult& result : results) {
+    if (result.system == "karto") result.profile = "tuned";
+  }
+  EXPECT_THAT(html::caveats(make_cases(results)),
+              Contains(AllOf(StartsWith("Profile tuned"), HasSubstr("has one: karto ("))));
+}
+
 TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
   std::vector<RunResult> results = synthetic_results({{"fusion", 0.06}}, 2);
   EXPECT_THAT(html::caveats(make_cases(results)), Contains(HasSubstr("share the form")));
