@@ -106,7 +106,8 @@ void Mapper::link_with_near_chains(std::vector<PoseWithCovariance>& estimates) {
 }
 
 // The longest chains first, each by one thread: a grid that two cores share costs more than it
-// saves.
+// saves. Isolated, so that a thread that waits for the headings of a wide window does not begin
+// another match with the same matcher.
 std::vector<MatchResult> Mapper::match_with(const std::vector<Chain>& chains) {
   const auto in_stage = clock_.enter(Stage::kMatch);
   std::vector<std::size_t> by_size(chains.size());
@@ -125,7 +126,8 @@ std::vector<MatchResult> Mapper::match_with(const std::vector<Chain>& chains) {
   };
   const auto num_tasks = std::min<std::size_t>(
       chains.size(), static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
-  tbb::parallel_for(std::size_t{0}, num_tasks, [&](std::size_t) { match_remaining(); });
+  tbb::parallel_for(std::size_t{0}, num_tasks,
+                    [&](std::size_t) { tbb::this_task_arena::isolate(match_remaining); });
   return results;
 }
 

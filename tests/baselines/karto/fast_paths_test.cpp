@@ -100,8 +100,8 @@ ScanMatcher make_matcher(const GridSpec& spec, const KartoParams& params) {
 // Two rounds through the room, every scan a key scan, with near chains and closed loops.
 class TwoRounds {
  public:
-  TwoRounds(const MatcherFactory& make_matcher, int num_threads)
-      : mapper_(params(), kRange_m,
+  TwoRounds(const MatcherFactory& make_matcher, int num_threads, double match_window_m = 0.3)
+      : mapper_(params(match_window_m), kRange_m,
                 PoseGraph(backend::make_least_squares(backend::spa_params()), {}), clock_,
                 num_threads, make_matcher) {
     Pose2 T_odom_last;
@@ -131,8 +131,9 @@ class TwoRounds {
  private:
   static constexpr double kRange_m = 12;
 
-  static KartoParams params() {
+  static KartoParams params(double match_window_m) {
     KartoParams params;
+    params.match_window_m = match_window_m;
     params.use_barycentre = false;
     params.buffer_size_scans = 8;
     params.link_max_distance_m = 0.9;
@@ -163,6 +164,17 @@ TEST(Mapper, GivesTheSameRunWithTheMatcherByItsDefinitionAndWithAnyNumberOfThrea
     EXPECT_EQ(fast.mapper().counters().near_chain_links, counters.near_chain_links);
     EXPECT_EQ(fast.mapper().counters().coarse_loop_matches, counters.coarse_loop_matches);
     EXPECT_EQ(fast.mapper().counters().loop_closures, counters.loop_closures);
+  }
+}
+
+// Of a wide window the headings are shared out as well, inside the near chains that already are.
+TEST(Mapper, GivesTheSameRunWithAnyNumberOfThreadsForAWideWindowToo) {
+  const TwoRounds alone(make_matcher<CorrelativeMatcher>, 1, 0.9);
+  const TwoRounds together(make_matcher<CorrelativeMatcher>, 2, 0.9);
+  ASSERT_GT(alone.mapper().counters().near_chain_matches, 10);
+  for (std::size_t i = 0; i < alone.mapper().scans().size(); ++i) {
+    EXPECT_EQ(together.mapper().scans()[i].T_map_sensor(), alone.mapper().scans()[i].T_map_sensor())
+        << "scan " << i;
   }
 }
 
