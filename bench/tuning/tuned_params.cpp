@@ -1,9 +1,81 @@
+// Written by bench/tune.sh; do not edit. Its search is described in bench/tuning/README.md.
 #include "bench/tuning/tuned_params.hpp"
 
 namespace corridor::tuning {
 
 const std::vector<TunedParams>& all_tuned_params() {
-  static const std::vector<TunedParams> all = {};
+  static const std::vector<TunedParams> all = {
+      {"fusion",
+       "6c7bdfe4e7cd210815e4731fdc0bf9e48b0a7e9c2b7fe229a7efcefef9f3df1c",
+       64,
+       41,
+       8,
+       0.033207,
+       0.022093,
+       {
+           {"key_distance_m", "0.1307"},
+           {"key_angle_rad", "0.1021"},
+           {"submap_key_scans", "24"},
+           {"wheel_translation_ratio", "0.001908"},
+           {"wheel_rotation_per_m_rad", "0.02353"},
+           {"wheel_rotation_ratio", "0.007921"},
+           {"wheel_scale_sigma", "0.07673"},
+           {"slip_gate", "15.93"},
+           {"match_prior_sigma_m", "0.03643"},
+           {"match_prior_sigma_rad", "0.1082"},
+           {"vote_gate", "30.31"},
+           {"surface_sigma_m", "0.01861"},
+           {"robust_scale", "1.372"},
+           {"min_information_ratio", "0.01164"},
+           {"loop_min_inlier_ratio", "0.5679"},
+       }},
+      {"gmapping",
+       "6c7bdfe4e7cd210815e4731fdc0bf9e48b0a7e9c2b7fe229a7efcefef9f3df1c",
+       64,
+       59,
+       8,
+       2.188972,
+       0.472312,
+       {
+           {"linear_update_m", "0.1117"},
+           {"angular_update_rad", "0.1096"},
+           {"beam_tilt_steps", "0"},
+           {"translation_noise_per_m", "0.01025"},
+           {"rotation_noise_rad_per_m", "0.2893"},
+           {"translation_noise_m_per_rad", "0.2188"},
+           {"rotation_noise_per_rad", "0.05772"},
+           {"score_sigma_m2", "0.01173"},
+           {"likelihood_sigma_m2", "0.03707"},
+           {"weight_gain", "1.427"},
+           {"min_score", "60"},
+           {"linear_step_m", "0.0588"},
+           {"sample_proposal", "true"},
+       }},
+      {"karto",
+       "6c7bdfe4e7cd210815e4731fdc0bf9e48b0a7e9c2b7fe229a7efcefef9f3df1c",
+       64,
+       20,
+       8,
+       0.673208,
+       0.105388,
+       {
+           {"count_no_returns", "false"},
+           {"use_plain_mean_heading", "false"},
+           {"min_travel_distance_m", "0.3646"},
+           {"min_travel_heading_rad", "0.1341"},
+           {"buffer_size_scans", "124"},
+           {"match_window_m", "0.7805"},
+           {"match_smear_m", "0.02713"},
+           {"distance_variance_penalty_m2", "0.007655"},
+           {"angle_variance_penalty_rad2", "0.02123"},
+           {"min_distance_penalty", "0.6886"},
+           {"min_angle_penalty", "0.8977"},
+           {"link_min_response", "0.7381"},
+           {"loop_min_response_coarse", "0.5359"},
+           {"loop_min_response_fine", "0.538"},
+           {"loop_max_variance_coarse_m2", "0.4808"},
+       }},
+  };
   return all;
 }
 
