@@ -56,7 +56,7 @@ void append_seeds(const Cases& cases, std::vector<std::string>& sentences) {
   } else if (num_simulated > 0 && has_system(cases, {"fusion"})) {
     sentences.emplace_back(
         "fusion was developed on worlds of the same simulator, with other seeds than these; no "
-        "rival was adapted to it.");
+        "rival was adapted to it but by its profile tuned.");
   }
 }
 
