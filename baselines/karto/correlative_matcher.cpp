@@ -13,14 +13,14 @@ constexpr double kNoResponse = 1e-6;
 // Neighbouring beams mostly find or miss the same surface. Taken in this stride, the first few say
 // more about the rest.
 constexpr std::size_t kBeamStride = 8;
-// Cells that an end point may move between two headings of the coarse search, of which the fine
-// search tries all that lie between: at 1 cm, half a step of 2 deg at 12.6 m.
+// Cells by which an end point may lie beside that of the nearest coarse heading, since the fine
+// search tries what is in between: at 1 cm, half a step of 2 deg at 12.6 m.
 constexpr int kTurnMargin_cells = 22;
 // Cells by which the search leaves its window: the lattice ends one beyond, the fine search goes
 // one farther, centre and lattice are rounded.
 constexpr int kLatticeMargin_cells = 4;
-// A search whose beams move farther than this many margins may read anywhere.
-constexpr int kMaxTurnsPerStep = 64;
+// A search of which more headings would have to be looked at may read anywhere.
+constexpr double kMaxFarHeadings = 2000;
 // Multiples of the coarse half width that a response expansion tries.
 constexpr std::array<int, 3> kExpansions = {2, 3, 4};
 
@@ -64,6 +64,12 @@ CorrelativeMatcher::Stage CorrelativeMatcher::coarse_stage(double half_width_rad
           kCoarseStep_cells};
 }
 
+CorrelativeMatcher::Stage CorrelativeMatcher::fine_stage() const {
+  return {{grid_.resolution_m(), grid_.resolution_m()},
+          {0.5 * params_.coarse_angle_resolution_rad, params_.fine_angle_resolution_rad},
+          1};
+}
+
 void CorrelativeMatcher::select_beams(const KeyScan& scan, std::size_t stride) {
   const std::vector<Eigen::Vector2d>& beams_m = scan.beams_sensor_m();
   beams_sensor_m_.resize(static_cast<Eigen::Index>(beams_m.size()), 2);
@@ -95,45 +101,47 @@ void CorrelativeMatcher::aim(double centre_rad, const SearchAxis& heading_rad) {
 void CorrelativeMatcher::want_cells_around_beams(double centre_rad, const SearchAxis& heading_rad) {
   GridBlocks& blocks = grid_.blocks();
   if (params_.use_response_expansion) return blocks.want_all();
-  const int middle = grid_.middle_cell();
-  for (std::size_t i = 0; i < num_headings_; ++i) {
-    for (const BeamOffset& offset : headings_[i].offsets) {
-      blocks.want(middle + offset.row, middle + offset.column);
-    }
-  }
+  for (std::size_t i = 0; i < num_headings_; ++i) want(headings_[i].offsets);
   want_cells_of_far_beams(centre_rad, heading_rad);
   blocks.add_margin();
 }
 
-// Beams so long that half a step of heading moves their ends by more than the margin; they have no
-// return, but rows that wrap lead them back into the grid. More headings in between.
+// Beams so long that the margin does not cover what lies between two headings, or beyond the last;
+// they have no return, but rows that wrap lead them back into the grid. Headings as close as they
+// need.
 void CorrelativeMatcher::want_cells_of_far_beams(double centre_rad, const SearchAxis& heading_rad) {
-  const Eigen::ArrayXd move_cells =
-      beams_sensor_m_.rowwise().norm().array() * (heading_rad.step / grid_.resolution_m());
-  PointColumns far_m(beams_sensor_m_.rows(), 2);
+  const SearchAxis fine_rad = fine_stage().heading_rad;
+  const double turn_rad = std::max({0.5 * heading_rad.step, std::abs(fine_rad.offset(0)),
+                                    std::abs(fine_rad.offset(fine_rad.count() - 1))});
+  const double far_m = kTurnMargin_cells * grid_.resolution_m() / turn_rad;
+  PointColumns far_beams_m(beams_sensor_m_.rows(), 2);
   Eigen::Index num_far = 0;
-  double largest_move_cells = 0;
-  for (Eigen::Index i = 0; i < move_cells.size(); ++i) {
-    if (move_cells[i] <= 2 * kTurnMargin_cells) continue;
-    far_m.row(num_far++) = beams_sensor_m_.row(i);
-    largest_move_cells = std::max(largest_move_cells, move_cells[i]);
+  double longest_m = 0;
+  for (Eigen::Index i = 0; i < beams_sensor_m_.rows(); ++i) {
+    const double length_m = beams_sensor_m_.row(i).norm();
+    if (length_m <= far_m) continue;
+    far_beams_m.row(num_far++) = beams_sensor_m_.row(i);
+    longest_m = std::max(longest_m, length_m);
   }
   if (num_far == 0) return;
-  far_m.conservativeResize(num_far, 2);
-  if (largest_move_cells > 2 * kTurnMargin_cells * kMaxTurnsPerStep) {
-    return grid_.blocks().want_all();
-  }
-  const int num_turns = static_cast<int>(std::ceil(largest_move_cells / (2 * kTurnMargin_cells)));
-  const int middle = grid_.middle_cell();
+  far_beams_m.conservativeResize(num_far, 2);
+  const double first_rad = heading_rad.offset(0) - turn_rad;
+  const double range_rad = heading_rad.offset(heading_rad.count() - 1) + turn_rad - first_rad;
+  const double num_headings =
+      std::ceil(range_rad * longest_m / (2 * kTurnMargin_cells * grid_.resolution_m()));
+  if (num_headings > kMaxFarHeadings) return grid_.blocks().want_all();
   std::vector<BeamOffset> offsets;
-  for (int i = 0; i < num_turns * heading_rad.count(); ++i) {
-    // The middle of each part of the range that begins half a step before the first heading.
-    const double offset_rad =
-        heading_rad.offset(0) + heading_rad.step * ((i + 0.5) / num_turns - 0.5);
-    fill_beam_offsets(far_m, centre_rad + offset_rad, grid_, offsets);
-    for (const BeamOffset& offset : offsets) {
-      grid_.blocks().want(middle + offset.row, middle + offset.column);
-    }
+  for (int i = 0; i < num_headings; ++i) {
+    const double offset_rad = first_rad + range_rad * (i + 0.5) / num_headings;
+    fill_beam_offsets(far_beams_m, centre_rad + offset_rad, grid_, offsets);
+    want(offsets);
+  }
+}
+
+void CorrelativeMatcher::want(const std::vector<BeamOffset>& offsets) {
+  const int middle = grid_.middle_cell();
+  for (const BeamOffset& offset : offsets) {
+    grid_.blocks().want(middle + offset.row, middle + offset.column);
   }
 }
 
@@ -192,9 +200,7 @@ std::uint32_t CorrelativeMatcher::min_sum(const MatchOptions& options) const {
 }
 
 MatchResult CorrelativeMatcher::refine(const MatchResult& coarse, bool use_penalty) {
-  const Stage stage{{grid_.resolution_m(), grid_.resolution_m()},
-                    {0.5 * params_.coarse_angle_resolution_rad, params_.fine_angle_resolution_rad},
-                    1};
+  const Stage stage = fine_stage();
   const Pose2 centre = coarse.T_map_sensor;
   aim(centre.theta_rad(), stage.heading_rad);
   sweep_stage(centre, stage, 0);

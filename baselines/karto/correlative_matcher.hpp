@@ -28,10 +28,12 @@ class CorrelativeMatcher {
   };
 
   [[nodiscard]] Stage coarse_stage(double half_width_rad) const;
+  [[nodiscard]] Stage fine_stage() const;
   void select_beams(const KeyScan& scan, std::size_t stride);
   void aim(double centre_rad, const SearchAxis& heading_rad);
   void want_cells_around_beams(double centre_rad, const SearchAxis& heading_rad);
   void want_cells_of_far_beams(double centre_rad, const SearchAxis& heading_rad);
+  void want(const std::vector<BeamOffset>& offsets);
   void draw_local_map(const Eigen::Vector2d& viewpoint_m,
                       std::span<const KeyScan* const> local_map);
   MatchResult coarse_search(const Pose2& centre, const MatchOptions& options);

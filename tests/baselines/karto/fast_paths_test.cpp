@@ -82,6 +82,22 @@ RC_GTEST_PROP(CorrelativeMatcher, GivesWhatTryingEveryPoseForItselfGives, (std::
   expect_the_same_by_definition(scene, rng);
 }
 
+// Lattices that the defaults do not have: a fine search that reaches beyond half a coarse step, an
+// even grid, a kernel of 41 cells.
+RC_GTEST_PROP(CorrelativeMatcher, GivesThatWithUnusualParametersToo, (std::uint64_t seed)) {
+  Rng rng(seed);
+  Scene scene;
+  scene.params.coarse_angle_resolution_rad = rng.uniform(0.02, 0.3);
+  scene.params.coarse_angle_offset_rad = rng.uniform(0.0, 0.5);
+  scene.params.fine_angle_resolution_rad = rng.uniform(0.004, 0.1);
+  scene.spec.resolution_m = rng.uniform(0.02, 0.04);
+  scene.spec.window_m = rng.uniform(0.05, 0.6);
+  scene.spec.smear_m = rng.uniform(0.5, 10) * scene.spec.resolution_m;
+  scene.spec.reach_m = rng.uniform(1.5, 4);
+  scene.no_return_m = static_cast<float>(rng.uniform(2, 30));
+  expect_the_same_by_definition(scene, rng);
+}
+
 // Beams that run on into other rows of the grid turn far between two headings of the coarse search.
 RC_GTEST_PROP(CorrelativeMatcher, GivesThatForBeamsFarBeyondTheGridToo, (std::uint64_t seed)) {
   Rng rng(seed);
