@@ -67,6 +67,20 @@ class EndPointMap {
   // As nearest_m2, but of those cells only whose neighbour `front_cells` further has no hit.
   [[nodiscard]] float nearest_with_free_front_m2(float x_m, float y_m, int kernel_cells,
                                                  const Eigen::Vector2i& front_cells) const;
+  // The same for kernel_cells = 1, (column, row) = the point's own cell and a front at most one
+  // cell away along each axis.
+  [[nodiscard]] float nearest_of_nine_with_free_front_m2(float x_m, float y_m, int column, int row,
+                                                         const Eigen::Vector2i& front_cells) const {
+    const int in_tile_column = column & (kTileCells - 1);
+    const int in_tile_row = row & (kTileCells - 1);
+    const bool is_inside = static_cast<unsigned>(in_tile_column - 2) < kTileCells - 4 &&
+                           static_cast<unsigned>(in_tile_row - 2) < kTileCells - 4;
+    if (!is_inside) return nearest_with_free_front_m2(x_m, y_m, 1, front_cells);
+    const Tile* tile = tile_of(column, row);
+    if (tile == nullptr) return 2 * kNotFoundM2;
+    const std::ptrdiff_t front = front_cells.x() + std::ptrdiff_t{kTileCells} * front_cells.y();
+    return nearest_in_tile_m2(*tile, x_m, y_m, in_tile_column, in_tile_row, front);
+  }
 
   [[nodiscard]] float cells_per_m() const { return cells_per_m_; }
   [[nodiscard]] int cell_index(float coordinate_m) const {
@@ -106,8 +120,10 @@ class EndPointMap {
                static_cast<std::size_t>(columns_.count) +
            static_cast<std::size_t>(tile_column - columns_.first);
   }
+  // front: how much further the cell is that must have no hit; 0 = none must.
   [[nodiscard]] static float nearest_in_tile_m2(const Tile& tile, float x_m, float y_m,
-                                                int in_tile_column, int in_tile_row);
+                                                int in_tile_column, int in_tile_row,
+                                                std::ptrdiff_t front = 0);
   [[nodiscard]] float nearest_around_m2(float x_m, float y_m, int column, int row,
                                         int kernel_cells) const;
   void add_hit(float x_m, float y_m);
@@ -121,16 +137,23 @@ class EndPointMap {
 };
 
 inline float EndPointMap::nearest_in_tile_m2(const Tile& tile, float x_m, float y_m,
-                                             int in_tile_column, int in_tile_row) {
+                                             int in_tile_column, int in_tile_row,
+                                             std::ptrdiff_t front) {
   using Row = Eigen::Array4f;
-  const std::size_t corner = static_cast<std::size_t>(in_tile_row - 1) * kTileCells +
-                             static_cast<std::size_t>(in_tile_column - 1);
+  const std::ptrdiff_t corner = std::ptrdiff_t{in_tile_row - 1} * kTileCells + (in_tile_column - 1);
   // Three rows of four neighbouring cells; the fourth column is masked out.
   Row best = Row::Constant(2 * kNotFoundM2);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Map<const Row> mean_x(tile.mean_x_m.data() + corner + i * kTileCells);
-    const Eigen::Map<const Row> mean_y(tile.mean_y_m.data() + corner + i * kTileCells);
-    best = best.min((mean_x - x_m).square() + (mean_y - y_m).square());
+  for (std::ptrdiff_t i = 0; i < 3; ++i) {
+    const std::ptrdiff_t row = corner + i * kTileCells;
+    const Eigen::Map<const Row> mean_x(tile.mean_x_m.data() + row);
+    const Eigen::Map<const Row> mean_y(tile.mean_y_m.data() + row);
+    Row distance_m2 = (mean_x - x_m).square() + (mean_y - y_m).square();
+    if (front != 0) {
+      // 0 where the cell in front has no hit, above kNotFoundM2 where it has.
+      const Eigen::Map<const Row> front_x(tile.mean_x_m.data() + row + front);
+      distance_m2 += (front_x - kNoMeanM).square();
+    }
+    best = best.min(distance_m2);
   }
   best += Row(0, 0, 0, 2 * kNotFoundM2);
   return best.minCoeff();

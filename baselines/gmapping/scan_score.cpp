@@ -53,7 +53,10 @@ void nearest_block_m2(const EndPointMap& map, const ScanPoints& points, std::siz
   const int kernel_cells = params.kernel_size_cells;
   for (std::size_t i = 0; i < count; ++i) {
     float& nearest_m2 = out_m2[static_cast<Eigen::Index>(i)];
-    if (params.require_free_front) {
+    if (params.require_free_front && kernel_cells == 1) {
+      nearest_m2 = map.nearest_of_nine_with_free_front_m2(x_m[i], y_m[i], column[i], row[i],
+                                                          front_cells(points, begin + i, pose));
+    } else if (params.require_free_front) {
       nearest_m2 = map.nearest_with_free_front_m2(x_m[i], y_m[i], kernel_cells,
                                                   front_cells(points, begin + i, pose));
     } else if (kernel_cells == 1) {

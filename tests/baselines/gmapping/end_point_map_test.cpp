@@ -115,5 +115,30 @@ RC_GTEST_PROP(EndPointMap, NearestOfNineEqualsAScanOverAllCells, (std::uint64_t 
   }
 }
 
+// Points, cells and fronts at random, tile borders among them: the path of four cells at once
+// against the one of single cells.
+RC_GTEST_PROP(EndPointMap, FindsTheNearestWithAFreeFrontByBothPaths, (std::uint64_t seed)) {
+  Rng rng(seed);
+  EndPointMap map(0.05);
+  ScanPoints points;
+  for (int i = 0; i < 1500; ++i) {
+    points.x_base_m.push_back(static_cast<float>(rng.uniform(-2, 2)));
+    points.y_base_m.push_back(static_cast<float>(rng.uniform(-2, 2)));
+  }
+  map.insert(points, Pose2());
+  for (int i = 0; i < 200; ++i) {
+    const auto x_m = static_cast<float>(rng.uniform(-2.2, 2.2));
+    const auto y_m = static_cast<float>(rng.uniform(-2.2, 2.2));
+    const Eigen::Vector2i front(static_cast<int>(rng.below(3)) - 1,
+                                static_cast<int>(rng.below(3)) - 1);
+    if (front == Eigen::Vector2i::Zero()) continue;
+    const float fast = map.nearest_of_nine_with_free_front_m2(x_m, y_m, map.cell_index(x_m),
+                                                              map.cell_index(y_m), front);
+    const float plain = map.nearest_with_free_front_m2(x_m, y_m, 1, front);
+    RC_ASSERT((fast < kNotFoundM2) == (plain < kNotFoundM2));
+    if (plain < kNotFoundM2) RC_ASSERT(std::abs(fast - plain) <= 1e-6F);
+  }
+}
+
 }  // namespace
 }  // namespace corridor::gmapping
