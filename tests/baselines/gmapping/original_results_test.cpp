@@ -13,6 +13,7 @@
 #include "baselines/gmapping/gmapping_slam.hpp"
 #include "bench/statistics/quantiles.hpp"
 #include "datasets/formats/log_io.hpp"
+#include "tests/support/corridor_logs.hpp"
 #include "tests/support/recorded_data.hpp"
 
 namespace corridor::gmapping {
@@ -36,13 +37,11 @@ std::vector<double> original_rmse_m(const std::filesystem::path& file, const std
   return values;
 }
 
-// Lines "stamp x y theta is_key_scan".
 std::vector<bool> original_key_scans(const std::filesystem::path& file) {
   std::vector<bool> is_key_scan;
-  std::ifstream in(file);
-  double number = 0;
-  int is_key = 0;
-  while (in >> number >> number >> number >> number >> is_key) is_key_scan.push_back(is_key != 0);
+  for (const testing::OriginalPose& pose : testing::read_original_poses(file)) {
+    is_key_scan.push_back(pose.is_key_scan);
+  }
   return is_key_scan;
 }
 
@@ -92,24 +91,25 @@ TEST(RankSum, OfTwoSamplesAgreesWithTheValuesComputedByHand) {
   EXPECT_NEAR(rank_sum_z({1, 2, 3}, {4, 5, 6}), -4.5 / std::sqrt(5.25), 1e-12);
 }
 
-class OriginalGmapping : public ::testing::TestWithParam<std::string> {};
+class OriginalGmapping : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(OriginalGmapping, UsesTheSameScansAndIsAsAccurateOnTheCorridorLog) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "ten runs of a log take minutes with sanitizers";
 #endif
-  const std::string log_name = "corridor/" + GetParam() + ".clf.gz";
+  const std::string name = GetParam();
+  const std::string log_name = "corridor/" + name + ".clf.gz";
   const auto log_file = testing::recorded_file(log_name);
   const auto rmse_file = testing::recorded_file("corridor/original-results/rmse.txt");
   const auto key_scan_file =
-      testing::recorded_file("corridor/original-results/" + GetParam() + ".gmapping-seed1.txt");
+      testing::recorded_file("corridor/original-results/" + name + ".gmapping-seed1.txt");
   if (!log_file || !rmse_file || !key_scan_file) {
     GTEST_SKIP() << testing::missing_data_message(log_name);
   }
   const Result<SensorLog> log = formats::read_log(*log_file);
   ASSERT_TRUE(log.has_value()) << log.error().to_line();
   ASSERT_TRUE(log->truth.has_value());
-  const std::vector<double> original_m = original_rmse_m(*rmse_file, GetParam());
+  const std::vector<double> original_m = original_rmse_m(*rmse_file, name);
   const std::vector<bool> original_is_key_scan = original_key_scans(*key_scan_file);
   ASSERT_EQ(original_m.size(), 12u);
 
@@ -131,13 +131,7 @@ TEST_P(OriginalGmapping, UsesTheSameScansAndIsAsAccurateOnTheCorridorLog) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CorridorLogs, OriginalGmapping,
-                         ::testing::Values("r12-s1", "r4.5-s1", "r4.5-s2", "r4.5-s3", "r4.5-s4",
-                                           "r4.5-s5", "r4.5-s6", "r4.5-slip-s7", "r4.5-vary-s8"),
-                         [](const auto& log) {
-                           std::string name = log.param;
-                           for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';
-                           return name;
-                         });
+                         ::testing::ValuesIn(testing::kCorridorLogs), testing::test_name);
 
 }  // namespace
 }  // namespace corridor::gmapping
