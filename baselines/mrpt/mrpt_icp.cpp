@@ -136,6 +136,16 @@ class MrptIcp final : public SlamSystem {
 
 }  // namespace
 
+MrptIcpParams dense_icp_params() {
+  MrptIcpParams params;
+  params.localization_linear_m = 0.05;
+  params.localization_angular_rad = 0.035;
+  params.insertion_linear_m = 0.3;
+  params.insertion_angular_rad = 0.17;
+  params.point_decimation = 1;
+  return params;
+}
+
 std::unique_ptr<SlamSystem> make_mrpt_icp(const MrptIcpParams& params, const RobotModel& robot) {
   return std::make_unique<MrptIcp>(params, robot);
 }

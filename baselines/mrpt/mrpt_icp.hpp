@@ -68,6 +68,9 @@ struct MrptIcpParams {
   }
 };
 
+// What works on corridors and recorded logs, where the shipped values lose the way: see README.
+MrptIcpParams dense_icp_params();
+
 // Requires parameters without violations. It keeps no graph: the final path is the online one.
 std::unique_ptr<SlamSystem> make_mrpt_icp(const MrptIcpParams& params, const RobotModel& robot);
 

@@ -116,7 +116,10 @@ SystemInfo mrpt_icp_entry() {
   info.name = "mrpt-icp";
   info.description = "MRPT's own ICP-SLAM, a third-party reference";
   set_factory<mrpt::MrptIcpParams>(
-      info, {{"as-shipped", "as MRPT's classic example is configured", {}}},
+      info,
+      {{"dense", "a match every 5 cm against a scan every 30 cm, with all points",
+        mrpt::dense_icp_params()},
+       {"as-shipped", "as MRPT's classic example is configured", {}}},
       [](const mrpt::MrptIcpParams& params, const SystemRequest& request) -> SystemResult {
         return mrpt::make_mrpt_icp(params, request.robot);
       });
