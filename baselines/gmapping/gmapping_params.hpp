@@ -2,6 +2,10 @@
 // Where the original's name is known to users it stands in the comment of the field.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "slam/core/params.hpp"
 
 namespace corridor::gmapping {
@@ -102,7 +106,26 @@ struct GmappingParams {
     visit_proposal(p, v);
   }
 
+  // Rules across fields.
+  [[nodiscard]] std::vector<std::string> relations() const {
+    std::vector<std::string> broken;
+    check_lattice("proposal_linear_step_m", proposal_linear_step_m, proposal_linear_range_m,
+                  broken);
+    check_lattice("proposal_angular_step_rad", proposal_angular_step_rad,
+                  proposal_angular_range_rad, broken);
+    return broken;
+  }
+
  private:
+  // Poses around the optimum, but not by the million.
+  static void check_lattice(std::string_view name, double step, double range,
+                            std::vector<std::string>& broken) {
+    constexpr double kMaxSteps = 20;
+    if (step <= range && range <= kMaxSteps * step) return;
+    broken.push_back(
+        fmt::format("{} = {}: expected the range {} over 1 to {}", name, step, range, kMaxSteps));
+  }
+
   template <class V>
   static void visit_proposal(GmappingParams& p, V& v) {
     v(ParamInfo{"sample_proposal", "",
@@ -124,8 +147,9 @@ struct GmappingParams {
   }
 };
 
-// What [Grisetti2007] describes: poses drawn from a Gaussian around the best match, weights by its
-// normaliser, and a free cell before every end point.
+// Two things that [Grisetti2007] describes and the program does not do: poses drawn from a Gaussian
+// around the best match with weights by its normaliser, and a free cell before every end point. All
+// else stays as shipped.
 GmappingParams published_params();
 
 }  // namespace corridor::gmapping

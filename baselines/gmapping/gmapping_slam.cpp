@@ -88,7 +88,7 @@ class GmappingSlam final : public SlamSystem {
     return true;
   }
 
-  // Noise is drawn for every scan, used or not. Without wheel odometry the robot stands still.
+  // Every scan moves the particles, used or not. Without wheel odometry the robot stands still.
   void predict(Timestamp stamp) {
     const auto scope = stage_clock().enter(Stage::kPredict);
     const std::optional<Pose2> T_odom_base = wheel_track_.pose_at(stamp);

@@ -10,6 +10,12 @@ constexpr double kSidewaysShare = 0.3;
 
 }  // namespace
 
+void MotionNoise::add(const MotionNoise& step) {
+  x_m = std::hypot(x_m, step.x_m);
+  y_m = std::hypot(y_m, step.y_m);
+  theta_rad = std::hypot(theta_rad, step.theta_rad);
+}
+
 MotionNoise motion_noise(const Pose2& T_before_after, const GmappingParams& params) {
   const double dx_m = std::abs(T_before_after.x_m());
   const double dy_m = std::abs(T_before_after.y_m());

@@ -14,6 +14,9 @@ struct MotionNoise {
   double x_m = 0;
   double y_m = 0;
   double theta_rad = 0;
+
+  // Of one step after another: variances add up.
+  void add(const MotionNoise& step);
 };
 
 // For the odometry step T_before_after = (dx, dy, dtheta), with s_xy = 0.3 s_rr:

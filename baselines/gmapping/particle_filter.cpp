@@ -25,14 +25,15 @@ ParticleFilter::ParticleFilter(const GmappingParams& params, Rng rng, int num_th
 }
 
 void ParticleFilter::predict(const Pose2& T_before_after) {
+  const MotionNoise noise = motion_noise(T_before_after, params_);
   T_used_now_ = T_used_now_ * T_before_after;
+  used_noise_.add(noise);
   if (params_.sample_proposal) {
     for (Particle& particle : particles_) {
       particle.T_map_base = particle.T_map_base * T_before_after;
     }
     return;
   }
-  const MotionNoise noise = motion_noise(T_before_after, params_);
   const Rng step_rng = motion_rng_.stream(num_predictions_++);
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     Rng rng = step_rng.stream(i);
@@ -75,9 +76,8 @@ void ParticleFilter::take_match(Particle& particle, const HillClimbResult& match
 void ParticleFilter::draw_around_match(Particle& particle, const HillClimbResult& match,
                                        const ScanPoints& points, Rng rng) const {
   const Pose2 T_map_before = particle.T_map_base * T_used_now_.inverse();
-  const MotionNoise noise = motion_noise(T_used_now_, params_);
   if (!(match.score > params_.min_score)) {
-    particle.T_map_base = sample_motion(T_map_before, T_used_now_, noise, rng);
+    particle.T_map_base = sample_motion(T_map_before, T_used_now_, used_noise_, rng);
     particle.add_log_weight(
         scan_log_likelihood(particle.map, points, particle.T_map_base, params_));
     return;
@@ -85,7 +85,7 @@ void ParticleFilter::draw_around_match(Particle& particle, const HillClimbResult
   const GaussianProposal proposal =
       fit_proposal(match.T_map_base, params_, [&](const Pose2& T_map_base) {
         return scan_log_likelihood(particle.map, points, T_map_base, params_) +
-               log_motion_density(T_map_before, T_map_base, T_used_now_, noise);
+               log_motion_density(T_map_before, T_map_base, T_used_now_, used_noise_);
       });
   particle.T_map_base = draw_pose(proposal, rng);
   particle.add_log_weight(proposal.log_normaliser);
@@ -113,6 +113,7 @@ void ParticleFilter::register_scan(const ScanPoints& points) {
   for_each_particle(
       [&](std::size_t i) { particles_[i].map.insert(points, particles_[i].T_map_base); });
   T_used_now_ = Pose2();
+  used_noise_ = {};
   for (Particle& particle : particles_) {
     particle.node = ancestry_.add(particle.T_map_base, particle.node);
   }

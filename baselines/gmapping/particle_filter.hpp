@@ -12,6 +12,7 @@
 #include "baselines/gmapping/end_point_map.hpp"
 #include "baselines/gmapping/gmapping_params.hpp"
 #include "baselines/gmapping/hill_climb.hpp"
+#include "baselines/gmapping/motion_model.hpp"
 #include "baselines/gmapping/scan_points.hpp"
 #include "slam/core/pose2.hpp"
 #include "slam/core/rng.hpp"
@@ -69,7 +70,8 @@ class ParticleFilter {
   tbb::task_arena arena_;
   std::vector<Particle> particles_;
   Ancestry ancestry_;
-  Pose2 T_used_now_;  // odometry since the last used scan
+  Pose2 T_used_now_;        // odometry since the last used scan
+  MotionNoise used_noise_;  // and its noise, step by step as predict() would have drawn it
   std::uint64_t num_predictions_ = 0;
   std::uint64_t num_matches_ = 0;
   std::uint64_t num_resamplings_ = 0;

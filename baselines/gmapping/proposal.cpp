@@ -57,7 +57,7 @@ GaussianProposal fit_proposal(const Pose2& centre, const GmappingParams& params,
   const Eigen::Vector3d mean_offset = first_moment / sum;
   return {.mean_map = Eigen::Vector3d(centre.x_m(), centre.y_m(), centre.theta_rad()) + mean_offset,
           .covariance_map = second_moment / sum - mean_offset * mean_offset.transpose(),
-          .log_normaliser = largest + std::log(sum)};
+          .log_normaliser = largest + std::log(sum / static_cast<double>(points.size()))};
 }
 
 Pose2 draw_pose(const GaussianProposal& proposal, Rng& rng) {

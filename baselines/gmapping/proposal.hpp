@@ -16,7 +16,7 @@ namespace corridor::gmapping {
 struct GaussianProposal {
   Eigen::Vector3d mean_map = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_map = Eigen::Matrix3d::Zero();
-  double log_normaliser = 0;  // log of the sum of the target over the lattice
+  double log_normaliser = 0;  // log of the target's mean over the lattice
 };
 
 // Mean, covariance and normaliser (eq. 14-18) of exp(log_target(pose)) over the lattice around

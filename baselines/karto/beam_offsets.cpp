@@ -20,9 +20,8 @@ void fill_beam_offsets(const PointColumns& beams_sensor_m, double heading_rad,
   const double cells_per_m = 1 / grid.resolution_m();
   const double c = std::cos(heading_rad) * cells_per_m;
   const double s = std::sin(heading_rad) * cells_per_m;
-  // Beyond it every linear index is outside the grid, and int32 could overflow.
-  const std::int32_t row_limit = 2 * (grid.num_cells() / grid.stride());
-  const std::int32_t column_limit = grid.num_cells();
+  // A linear offset beyond the number of cells leads out of the grid from every cell of it.
+  const std::int64_t limit = grid.num_cells();
   std::array<std::int32_t, kBlock> columns;
   std::array<std::int32_t, kBlock> rows;
   offsets.clear();
@@ -35,8 +34,9 @@ void fill_beam_offsets(const PointColumns& beams_sensor_m, double heading_rad,
       rows[i] = round_to_cell(std::fma(s, x_m[i], c * y_m[i]));
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (std::abs(rows[i]) >= row_limit || std::abs(columns[i]) >= column_limit) continue;
-      offsets.push_back({columns[i] + rows[i] * grid.stride(), columns[i], rows[i]});
+      const std::int64_t linear = columns[i] + std::int64_t{rows[i]} * grid.stride();
+      if (std::abs(linear) >= limit) continue;
+      offsets.push_back({static_cast<std::int32_t>(linear), columns[i], rows[i]});
     }
   }
 }

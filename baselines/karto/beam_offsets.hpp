@@ -15,7 +15,7 @@ struct BeamOffset {
 };
 
 // Rotates each end point by `heading_rad` and rounds to cells relative to the sensor's cell. Points
-// farther than any grid reaches are left out; requires finite coordinates of at most 1e5 cells.
+// that no cell of the grid leads to are left out; requires finite coordinates of at most 1e9 cells.
 void fill_beam_offsets(const PointColumns& beams_sensor_m, double heading_rad,
                        const CorrelationGrid& grid, std::vector<BeamOffset>& offsets);
 

@@ -44,6 +44,9 @@ class CorrelationGrid {
   // Empties the grid, moves its middle cell's centre to a point of the map, and wants nothing.
   void reset(const Eigen::Vector2d& centre_map_m);
   [[nodiscard]] GridBlocks& blocks() { return blocks_; }
+  // True if a stamp sets its neighbours to kOccupied as well. Which of them are then stamped
+  // themselves depends on the order of all points, so that none may be left out.
+  [[nodiscard]] bool needs_all_points() const { return kernel_.at(1, 0) == kOccupied; }
   void find_cells(const PointColumns& points_map_m, GridCells& cells) const;
   // Sets cells [begin, end) of those, if wanted, to kOccupied and stamps the kernel around each
   // with max().

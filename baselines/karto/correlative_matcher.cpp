@@ -19,6 +19,8 @@ constexpr int kTurnMargin_cells = 22;
 // Cells by which the search leaves its window: the lattice ends one beyond, the fine search goes
 // one farther, centre and lattice are rounded.
 constexpr int kLatticeMargin_cells = 4;
+// Half width of headings whose circular mean is among them, with a step to spare.
+constexpr double kWidestMean_rad = 1.2;
 // A search of which more headings would have to be looked at may read anywhere.
 constexpr double kMaxFarHeadings = 2000;
 // Multiples of the coarse half width that a response expansion tries.
@@ -97,10 +99,13 @@ void CorrelativeMatcher::aim(double centre_rad, const SearchAxis& heading_rad) {
 }
 
 // Coarse and fine search read the cells around the end points of the coarse headings, and of those
-// in between. A search that widens may turn anywhere.
+// in between. A search that widens may turn anywhere, and so may the mean of tied headings that
+// span half a turn.
 void CorrelativeMatcher::want_cells_around_beams(double centre_rad, const SearchAxis& heading_rad) {
   GridBlocks& blocks = grid_.blocks();
-  if (params_.use_response_expansion) return blocks.want_all();
+  const bool may_turn_anywhere =
+      params_.use_response_expansion || heading_rad.half_width > kWidestMean_rad;
+  if (may_turn_anywhere || grid_.needs_all_points()) return blocks.want_all();
   for (std::size_t i = 0; i < num_headings_; ++i) want(headings_[i].offsets);
   want_cells_of_far_beams(centre_rad, heading_rad);
   blocks.add_margin();
@@ -131,8 +136,8 @@ void CorrelativeMatcher::want_cells_of_far_beams(double centre_rad, const Search
       std::ceil(range_rad * longest_m / (2 * kTurnMargin_cells * grid_.resolution_m()));
   if (num_headings > kMaxFarHeadings) return grid_.blocks().want_all();
   std::vector<BeamOffset> offsets;
-  for (int i = 0; i < num_headings; ++i) {
-    const double offset_rad = first_rad + range_rad * (i + 0.5) / num_headings;
+  for (double i = 0.5; i < num_headings; ++i) {
+    const double offset_rad = first_rad + range_rad * i / num_headings;
     fill_beam_offsets(far_beams_m, centre_rad + offset_rad, grid_, offsets);
     want(offsets);
   }

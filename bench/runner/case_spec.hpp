@@ -46,9 +46,9 @@ struct CaseSpec {
   bool operator==(const CaseSpec&) const = default;
 };
 
-// "paper-corridor-s3.karto@as-shipped.levenberg-1f0a3c5b7d9e": readable, and a hash of everything that
-// decides the estimate. Limits and the data's digest are left out: the same experiment keeps its
-// name.
+// "paper-corridor-s3.karto@as-shipped.levenberg-1f0a3c5b7d9e": readable, and a hash of everything
+// that decides the estimate. Limits and the data's digest are left out: the same experiment keeps
+// its name.
 std::string case_id(const CaseSpec& spec);
 
 std::string to_json(const CaseSpec& spec);

@@ -98,6 +98,26 @@ RC_GTEST_PROP(CorrelativeMatcher, GivesThatWithUnusualParametersToo, (std::uint6
   expect_the_same_by_definition(scene, rng);
 }
 
+// A kernel so wide that a stamp occupies its neighbours.
+RC_GTEST_PROP(CorrelativeMatcher, GivesThatWithTheWidestKernelToo, (std::uint64_t seed)) {
+  Rng rng(seed);
+  Scene scene;
+  scene.spec = {0.02, 0.3, 2.5, 0.2};
+  scene.no_return_m = 3;
+  expect_the_same_by_definition(scene, rng);
+}
+
+// Headings that tie on both sides of half a turn: their mean is not between them.
+RC_GTEST_PROP(CorrelativeMatcher, GivesThatForAllHeadingsToo, (std::uint64_t seed)) {
+  Rng rng(seed);
+  Scene scene;
+  scene.spec = {0.04, 0.3, 2.5, 0.05};
+  scene.params.coarse_angle_offset_rad = rng.uniform(1.2, 3.2);
+  scene.params.coarse_angle_resolution_rad = rng.uniform(0.1, 1.0);
+  scene.no_return_m = 3;
+  expect_the_same_by_definition(scene, rng);
+}
+
 // Beams that run on into other rows of the grid turn far between two headings of the coarse search.
 RC_GTEST_PROP(CorrelativeMatcher, GivesThatForBeamsFarBeyondTheGridToo, (std::uint64_t seed)) {
   Rng rng(seed);

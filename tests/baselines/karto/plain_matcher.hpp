@@ -70,6 +70,8 @@ class PlainMatcher {
     const int column = cell(x_m, corner_m_.x());
     const int row = cell(y_m, corner_m_.y());
     if (std::min(column, row) < border_ || std::max(column, row) >= side_ - border_) return;
+    // The original's rule: what is occupied, be it by another's stamp, is not stamped again.
+    if (grid_[static_cast<std::size_t>(row * stride_ + column)] == kOccupied) return;
     const int reach = kernel_.half_width;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
