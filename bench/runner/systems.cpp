@@ -59,12 +59,12 @@ SystemInfo gmapping_entry() {
   info.is_stochastic = true;
   set_factory<gmapping::GmappingParams>(
       info,
-      with_tuned<gmapping::GmappingParams>(
-          "gmapping",
-          {{"as-shipped", "as its ROS node ships", {}},
-           {"as-published",
-            "as its paper says: poses drawn around the match, a free cell before every end point",
-            gmapping::published_params()}}),
+      with_tuned<gmapping::GmappingParams>("gmapping",
+                                           {{"as-shipped", "as its ROS node ships", {}},
+                                            {"as-published",
+                                             "with two things of its paper: poses drawn around the "
+                                             "match, a free cell before an end point",
+                                             gmapping::published_params()}}),
       [](const gmapping::GmappingParams& params, const SystemRequest& request) -> SystemResult {
         return gmapping::make_gmapping(params, request.robot, rng_of(request), request.threads);
       });
