@@ -57,8 +57,7 @@ Eigen::Vector2i CorrelationGrid::cell_of(const Eigen::Vector2d& point_map_m) con
 // Without branches and with all members in locals, so that it runs over four points at once.
 void CorrelationGrid::find_cells(const PointColumns& points_map_m, GridCells& cells) const {
   const auto count = static_cast<std::size_t>(points_map_m.rows());
-  cells.index.resize(count);
-  cells.block.resize(count);
+  cells.resize(count);
   const double* const x_m = points_map_m.col(0).data();
   const double* const y_m = points_map_m.col(1).data();
   const double corner_x_m = corner_map_m_.x();
@@ -79,9 +78,9 @@ void CorrelationGrid::find_cells(const PointColumns& points_map_m, GridCells& ce
   }
 }
 
-void CorrelationGrid::occupy(const GridCells& found, std::size_t begin, std::size_t end) {
+void CorrelationGrid::occupy(const GridCells& found, std::size_t count) {
   const std::uint8_t* const grid = cells();
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (!blocks_.is_wanted(found.block[i]) || grid[found.index[i]] == kOccupied) continue;
     blocks_.draw(found.block[i]);
     stamp(found.index[i]);

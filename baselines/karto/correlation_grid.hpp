@@ -29,6 +29,11 @@ struct GridSpec {
 struct GridCells {
   std::vector<std::int32_t> index;  // linear
   std::vector<std::int32_t> block;  // GridBlocks::kNowhere for a point outside the inner cells
+
+  void resize(std::size_t count) {
+    index.resize(count);
+    block.resize(count);
+  }
 };
 
 // Cells are addressed by linear index = column + row * stride(), and only the linear index is
@@ -44,18 +49,21 @@ class CorrelationGrid {
   // Empties the grid, moves its middle cell's centre to a point of the map, and wants nothing.
   void reset(const Eigen::Vector2d& centre_map_m);
   [[nodiscard]] GridBlocks& blocks() { return blocks_; }
+  [[nodiscard]] const GridBlocks& blocks() const { return blocks_; }
   // True if a stamp sets its neighbours to kOccupied as well. Which of them are then stamped
   // themselves depends on the order of all points, so that none may be left out.
   [[nodiscard]] bool needs_all_points() const { return kernel_.at(1, 0) == kOccupied; }
   void find_cells(const PointColumns& points_map_m, GridCells& cells) const;
-  // Sets cells [begin, end) of those, if wanted, to kOccupied and stamps the kernel around each
-  // with max().
-  void occupy(const GridCells& cells, std::size_t begin, std::size_t end);
+  // Sets the first `count` of them, if wanted, to kOccupied and stamps the kernel around each with
+  // max().
+  void occupy(const GridCells& cells, std::size_t count);
 
   [[nodiscard]] int side_cells() const { return side_; }
   [[nodiscard]] int stride() const { return stride_; }
   [[nodiscard]] std::int32_t num_cells() const { return side_ * stride_; }
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
+  // How far the smear of an end point reaches from its cell.
+  [[nodiscard]] int smear_reach_cells() const { return kernel_.half_width; }
 
   [[nodiscard]] int middle_cell() const { return (side_ - 1) / 2; }  // column and row
   // Nearest cell (column, row); may lie outside.

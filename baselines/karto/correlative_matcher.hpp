@@ -8,7 +8,7 @@
 
 #include "baselines/karto/response_table.hpp"
 #include "baselines/karto/scan_matcher.hpp"
-#include "baselines/karto/window_sweep.hpp"
+#include "baselines/karto/search_part.hpp"
 
 namespace corridor::karto {
 
@@ -25,40 +25,47 @@ class CorrelativeMatcher {
     SearchAxis position_m;
     SearchAxis heading_rad;
     int step_cells;
+
+    [[nodiscard]] std::size_t num_poses() const {
+      return static_cast<std::size_t>(heading_rad.count()) *
+             static_cast<std::size_t>(position_m.count()) *
+             static_cast<std::size_t>(position_m.count());
+    }
   };
 
   [[nodiscard]] Stage coarse_stage(double half_width_rad) const;
   [[nodiscard]] Stage fine_stage() const;
-  void select_beams(const KeyScan& scan, std::size_t stride);
-  void aim(double centre_rad, const SearchAxis& heading_rad);
-  void want_cells_around_beams(double centre_rad, const SearchAxis& heading_rad);
-  void want_cells_of_far_beams(double centre_rad, const SearchAxis& heading_rad);
-  void want(const std::vector<BeamOffset>& offsets);
-  void draw_local_map(const Eigen::Vector2d& viewpoint_m,
-                      std::span<const KeyScan* const> local_map);
+  void select_beams(const KeyScan& scan);
+  void share_out(const Stage& stage, bool use_threads);
+  void draw(const Pose2& centre, const SearchAxis& heading_rad,
+            std::span<const KeyScan* const> local_map);
+  void want_cells(SearchPart& part, const HeadingRange& headings) const;
+  [[nodiscard]] HeadingRange headings_of_part(std::size_t index, double centre_rad,
+                                              const SearchAxis& heading_rad) const;
+  [[nodiscard]] SearchPart& part_at(double offset_rad, const SearchAxis& heading_rad);
+  template <class Body>
+  void for_each_part(const Body& body);
   MatchResult coarse_search(const Pose2& centre, const MatchOptions& options);
   MatchResult search_coarse_once(const Pose2& centre, const Stage& stage,
                                  const MatchOptions& options);
-  MatchResult refine(const MatchResult& coarse, bool use_penalty);
+  MatchResult refine(const Pose2& predicted, const MatchResult& coarse, bool use_penalty);
   [[nodiscard]] bool may_give_up(const MatchOptions& options) const;
   [[nodiscard]] std::uint32_t min_sum(const MatchOptions& options) const;
-  void sweep(const SweepWindow& window, std::uint32_t min_sum);
-  void sweep_stage(const Pose2& centre, const Stage& stage, std::uint32_t min_sum);
+  void sweep_coarse(const Pose2& centre, const Stage& stage, std::uint32_t min_sum);
+  [[nodiscard]] SweepWindow window_of(const Pose2& centre, const Stage& stage) const;
   [[nodiscard]] double best_unpenalised_response() const;
   [[nodiscard]] ResponseTable responses(const Stage& stage, bool use_penalty) const;
   void apply_penalty(ResponseTable& table) const;
-  double variance_of_heading(const Pose2& centre, const SearchAxis& heading_rad,
+  double variance_of_heading(SearchPart& part, const Pose2& centre, const SearchAxis& heading_rad,
                              const SearchOffset& best, double best_response);
 
   KartoParams params_;
-  double window_m_;
   EdgeRule edge_rule_;
-  CorrelationGrid grid_;
-  GridCells cells_;                     // of the points of one scan
-  PointColumns beams_sensor_m_;         // end points to look up
-  double full_response_ = 1;            // sum that would be a response of 1
-  std::vector<HeadingSweep> headings_;  // the first num_headings_ are in use
-  std::size_t num_headings_ = 0;
+  GridSpec spec_;
+  std::vector<SearchPart> parts_;  // the first num_parts_ are in use
+  std::size_t num_parts_ = 1;
+  PointColumns beams_sensor_m_;      // end points to look up
+  double full_response_ = 1;         // sum that would be a response of 1
   std::vector<std::uint32_t> sums_;  // by heading, then by position
 };
 

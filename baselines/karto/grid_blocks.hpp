@@ -42,6 +42,9 @@ class GridBlocks {
     return is_wanted_[static_cast<std::size_t>(block)] != 0;
   }
 
+  // One a block, 1 where wanted.
+  [[nodiscard]] const std::vector<std::uint8_t>& wanted() const { return is_wanted_; }
+
   // Remembers that the block holds something.
   void draw(std::int32_t block) {
     std::uint8_t& is_drawn = is_drawn_[static_cast<std::size_t>(block)];

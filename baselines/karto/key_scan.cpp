@@ -55,7 +55,7 @@ void KeyScan::set_T_map_sensor(const Pose2& T_map_sensor) {
     points_map_m_.row(row++) = point_map_m.transpose();
     if (is_in_range_[i]) sum_m += point_map_m;
   }
-  cut_surface(points_map_m_, kAnchorSpacing_m, surface_map_);
+  surface_map_.cut(points_map_m_, kAnchorSpacing_m);
   reference_map_m_ = options_.use_barycentre && is_usable()
                          ? Eigen::Vector2d(sum_m / static_cast<double>(num_in_range_))
                          : t_map_sensor_m;

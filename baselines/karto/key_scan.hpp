@@ -48,7 +48,7 @@ class KeyScan {
   // End points of the beams in range, and of the others if kept, in order of the beams, map frame.
   [[nodiscard]] const PointColumns& points_map_m() const { return points_map_m_; }
   // Those points as pieces of surface, in the map.
-  [[nodiscard]] const std::vector<SurfacePiece>& surface_map() const { return surface_map_; }
+  [[nodiscard]] const Surface& surface_map() const { return surface_map_; }
   // False if no beam is in range: there is nothing to match or to map.
   [[nodiscard]] bool is_usable() const { return num_in_range_ > 0; }
   // Where the scan "is" in every test of distance: the mean of its end points in range, or
@@ -72,7 +72,7 @@ class KeyScan {
   std::vector<std::uint8_t> is_in_range_;
   std::vector<std::uint8_t> is_return_;
   PointColumns points_map_m_;
-  std::vector<SurfacePiece> surface_map_;
+  Surface surface_map_;
   Eigen::Vector2d reference_map_m_ = Eigen::Vector2d::Zero();
 };
 

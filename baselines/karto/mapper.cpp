@@ -13,9 +13,9 @@
 namespace corridor::karto {
 namespace {
 
-constexpr MatchOptions kSequential{.use_penalty = true, .use_refinement = true};
-constexpr MatchOptions kNearChain{.use_penalty = false, .use_refinement = true};
-constexpr MatchOptions kLoopFine{.use_penalty = false, .use_refinement = true};
+constexpr MatchOptions kSequential{.use_penalty = true, .use_threads = true};
+constexpr MatchOptions kNearChain{};  // several at a time
+constexpr MatchOptions kLoopFine{.use_threads = true};
 
 GridSpec sequential_grid(const KartoParams& params, double range_threshold_m) {
   return {params.match_resolution_m, params.match_window_m, range_threshold_m,
@@ -105,9 +105,7 @@ void Mapper::link_with_near_chains(std::vector<PoseWithCovariance>& estimates) {
   }
 }
 
-// The longest chains first, each by one thread: a grid that two cores share costs more than it
-// saves. Isolated, so that a thread that waits for the headings of a wide window does not begin
-// another match with the same matcher.
+// The longest chains first, each by one thread.
 std::vector<MatchResult> Mapper::match_with(const std::vector<Chain>& chains) {
   const auto in_stage = clock_.enter(Stage::kMatch);
   std::vector<std::size_t> by_size(chains.size());
@@ -126,8 +124,7 @@ std::vector<MatchResult> Mapper::match_with(const std::vector<Chain>& chains) {
   };
   const auto num_tasks = std::min<std::size_t>(
       chains.size(), static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
-  tbb::parallel_for(std::size_t{0}, num_tasks,
-                    [&](std::size_t) { tbb::this_task_arena::isolate(match_remaining); });
+  tbb::parallel_for(std::size_t{0}, num_tasks, [&](std::size_t) { match_remaining(); });
   return results;
 }
 
@@ -166,7 +163,8 @@ bool Mapper::try_loop(const Chain& chain) {
   ++counters_.coarse_loop_matches;
   const MatchOptions in_wide_window{.use_penalty = false,
                                     .use_refinement = false,
-                                    .min_response = params_.loop_min_response_coarse};
+                                    .min_response = params_.loop_min_response_coarse,
+                                    .use_threads = true};
   const MatchResult coarse = match(loop_matcher_, newest().T_map_sensor(), chain, in_wide_window);
   const bool is_accepted = coarse.response > params_.loop_min_response_coarse &&
                            coarse.covariance_map(0, 0) < params_.loop_max_variance_coarse_m2 &&

@@ -1,5 +1,5 @@
 // Sums of grid values under a scan for every position of a search window, one heading at a time.
-// The brute-force correlation of [Olson2009] section III, organised by rows instead of by poses.
+// Beams that leave the grid are its business, and headings; the sums themselves are TileSweep's.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,9 @@
 
 #include "baselines/karto/beam_offsets.hpp"
 #include "baselines/karto/correlation_grid.hpp"
+#include "baselines/karto/tile_sweep.hpp"
 
 namespace corridor::karto {
-
-// Positions: cell (first_column + step * i, first_row + step * j) for i, j in [0, count).
-struct SweepWindow {
-  int first_column = 0;
-  int first_row = 0;
-  int step_cells = 1;  // 1 or 2
-  int count = 1;
-
-  [[nodiscard]] std::size_t num_positions() const {
-    return static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
-  }
-};
 
 enum class EdgeRule {
   kWrap,  // only the linear index is checked: a beam leaving sideways reads another row
@@ -33,13 +22,16 @@ enum class EdgeRule {
 struct HeadingSweep {
   std::vector<BeamOffset> offsets;
   std::span<std::uint32_t> sums;
-  std::vector<std::int32_t> inner;  // scratch: beams that may be read at every position
+  // Scratch: beams that may be read at every position, those that may not, and those that stay in
+  // the grid's rows and columns.
+  std::vector<std::int32_t> inner;
+  std::vector<BeamOffset> leaving;
+  std::vector<BeamOffset> inside;
 };
 
 // For each heading sums[j * count + i] = sum over its beams of the grid's value at position (i, j)
-// plus offset, exact where it is at least `min_sum`. A smaller one may come out too small: such
-// positions are given up once their remaining beams cannot lift them to min_sum. Every `sums` has
-// num_positions() elements. Headings are shared out to the threads of the present task arena.
+// plus offset, exact where it is at least `min_sum`. A smaller one may come out too small: squares
+// of positions that cannot reach min_sum are left out. Every `sums` has num_positions() elements.
 void sweep_window(const CorrelationGrid& grid, const SweepWindow& window, EdgeRule edge_rule,
                   std::uint32_t min_sum, std::span<HeadingSweep> headings);
 

@@ -2,7 +2,6 @@
 // a look-up that reads 1 of 16 values of a vector cannot be faster than a sixteenth of a load. A
 // limit of this layout of the grid; another may have another.
 #include <benchmark/benchmark.h>
-#include <tbb/task_arena.h>
 
 #include <array>
 #include <cstring>
@@ -76,11 +75,8 @@ void match(benchmark::State& state, const karto::GridSpec& spec,
   karto::CorrelativeMatcher matcher(spec, {});
   const karto::KeyScan& scan = scene.scans[35];
   const Pose2 predicted = scan.T_map_sensor() * Pose2(0.04, -0.03, 0.02);
-  tbb::task_arena one_thread(1);
   for (auto _ : state) {
-    one_thread.execute([&] {
-      benchmark::DoNotOptimize(matcher.match(scan, predicted, scene.local_map, options));
-    });
+    benchmark::DoNotOptimize(matcher.match(scan, predicted, scene.local_map, options));
   }
   const auto side = static_cast<std::int64_t>(spec.window_m / (2 * spec.resolution_m) + 1.5);
   constexpr std::int64_t kNumHeadings = 21;
@@ -106,7 +102,7 @@ void sweep(benchmark::State& state, const karto::GridSpec& spec, int count) {
   karto::GridCells cells;
   for (const karto::KeyScan& scan : scene.scans) {
     grid.find_cells(scan.points_map_m(), cells);
-    grid.occupy(cells, 0, cells.index.size());
+    grid.occupy(cells, cells.index.size());
   }
   karto::PointColumns beams_m(static_cast<Eigen::Index>(kNumBeams), 2);
   for (std::size_t i = 0; i < kNumBeams; ++i) {
@@ -121,10 +117,8 @@ void sweep(benchmark::State& state, const karto::GridSpec& spec, int count) {
                              headings[i].offsets);
     headings[i].sums = std::span(sums).subspan(i * window.num_positions(), window.num_positions());
   }
-  tbb::task_arena one_thread(1);
   for (auto _ : state) {
-    one_thread.execute(
-        [&] { karto::sweep_window(grid, window, karto::EdgeRule::kWrap, 0, headings); });
+    karto::sweep_window(grid, window, karto::EdgeRule::kWrap, 0, headings);
     benchmark::DoNotOptimize(sums.data());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(sums.size() * kNumBeams));

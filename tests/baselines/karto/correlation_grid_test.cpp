@@ -46,7 +46,7 @@ class SmallGrid : public ::testing::Test {
     }
     GridCells cells;
     grid.find_cells(columns, cells);
-    grid.occupy(cells, 0, points_m.size());
+    grid.occupy(cells, points_m.size());
   }
   void draw_all(const std::vector<Eigen::Vector2d>& points_m) {
     grid.blocks().want_all();
@@ -125,7 +125,7 @@ TEST_F(SmallGrid, LeavesOutWhatNobodyReads) {
   points << centre_m.x(), centre_m.y(), centre_m.x() + 0.6, centre_m.y();
   GridCells cells;
   wide.find_cells(points, cells);
-  wide.occupy(cells, 0, 2);
+  wide.occupy(cells, 2);
   EXPECT_EQ(wide.cells()[cells.index[0]], 100);
   EXPECT_EQ(wide.cells()[cells.index[1]], 0);
 }

@@ -1,6 +1,7 @@
 // The program's matcher against the matcher by its definition: the same numbers, bit by bit.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <limits>
@@ -54,13 +55,19 @@ void expect_the_same_by_definition(Scene scene, Rng& rng) {
   const MatchResult plain =
       testing::PlainMatcher(scene.spec, scene.params).match(scan, guess, local_map, scene.options);
   CorrelativeMatcher matcher(scene.spec, scene.params);
+  tbb::task_arena threads(1 + static_cast<int>(rng.below(4)));
+  const auto match_with = [&](const KeyScan& key_scan, const Pose2& predicted,
+                              const MatchOptions& options) {
+    return threads.execute([&] { return matcher.match(key_scan, predicted, local_map, options); });
+  };
+  scene.options.use_threads = true;
   // What an earlier match left in its memory must not show.
-  (void)matcher.match(map[0], near(truth, 1, 1, rng), local_map, {});
-  RC_ASSERT(are_equal(matcher.match(scan, guess, local_map, scene.options), plain));
+  (void)match_with(map[0], near(truth, 1, 1, rng), {});
+  RC_ASSERT(are_equal(match_with(scan, guess, scene.options), plain));
 
   // A search that gives up what is not taken: the same where it is taken, and not taken where not.
   scene.options.min_response = rng.uniform(0.2, 1.0);
-  const MatchResult bounded = matcher.match(scan, guess, local_map, scene.options);
+  const MatchResult bounded = match_with(scan, guess, scene.options);
   const bool is_taken = plain.response > scene.options.min_response;
   const bool is_right =
       is_taken ? are_equal(bounded, plain) : bounded.response <= scene.options.min_response;
@@ -74,7 +81,7 @@ RC_GTEST_PROP(CorrelativeMatcher, GivesWhatTryingEveryPoseForItselfGives, (std::
   scene.params.wrap_rows = rng.below(2) == 0;
   scene.params.use_response_expansion = rng.below(4) == 0;
   scene.options = {.use_penalty = rng.below(2) == 0, .use_refinement = rng.below(3) > 0};
-  scene.spec = rng.below(2) == 0 ? GridSpec{0.01, 0.3, 3.5, 0.03} : GridSpec{0.05, 2.0, 3.5, 0.05};
+  scene.spec = rng.below(2) == 0 ? GridSpec{0.01, 0.3, 3.5, 0.03} : GridSpec{0.05, 3.2, 3.5, 0.05};
   // Just beyond the range, in the grid's corners, in another row of it, nowhere.
   const std::array<float, 5> no_returns_m = {3.6F, 4.5F, 20, 81.83F,
                                              std::numeric_limits<float>::quiet_NaN()};
@@ -203,7 +210,7 @@ TEST(Mapper, GivesTheSameRunWithTheMatcherByItsDefinitionAndWithAnyNumberOfThrea
   }
 }
 
-// Of a wide window the headings are shared out as well, inside the near chains that already are.
+// Of a wide window the headings are shared out as well.
 TEST(Mapper, GivesTheSameRunWithAnyNumberOfThreadsForAWideWindowToo) {
   const TwoRounds alone(make_matcher<CorrelativeMatcher>, 1, 0.9);
   const TwoRounds together(make_matcher<CorrelativeMatcher>, 2, 0.9);

@@ -12,12 +12,13 @@ Points facing(const Eigen::Vector2d& viewpoint_m, const Points& points_m) {
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     columns.row(static_cast<Eigen::Index>(i)) = points_m[i].transpose();
   }
-  std::vector<SurfacePiece> pieces;
-  cut_surface(columns, kAnchorSpacing_m, pieces);
+  Surface surface;
+  surface.cut(columns, kAnchorSpacing_m);
+  std::vector<std::uint8_t> is_facing;
+  surface.find_facing(viewpoint_m, is_facing);
   Points kept;
-  for (const SurfacePiece& piece : pieces) {
-    if (!piece.faces(viewpoint_m)) continue;
-    kept.insert(kept.end(), points_m.begin() + piece.begin, points_m.begin() + piece.end);
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    if (is_facing[surface.piece_of_point()[i]] != 0) kept.push_back(points_m[i]);
   }
   return kept;
 }

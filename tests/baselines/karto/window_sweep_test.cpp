@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+
+#include "baselines/karto/pooled_grid.hpp"
+#include "baselines/karto/square_bounds.hpp"
 #include "slam/core/rng.hpp"
 
 namespace corridor::karto {
@@ -38,7 +42,7 @@ CorrelationGrid drawn_grid(const GridSpec& spec, const PointColumns& points_m) {
   grid.blocks().want_all();
   GridCells cells;
   grid.find_cells(points_m, cells);
-  grid.occupy(cells, 0, cells.index.size());
+  grid.occupy(cells, cells.index.size());
   return grid;
 }
 
@@ -46,7 +50,7 @@ std::vector<std::uint32_t> swept(const CorrelationGrid& grid,
                                  const std::vector<BeamOffset>& offsets, const SweepWindow& window,
                                  EdgeRule rule, std::uint32_t min_sum = 0) {
   std::vector<std::uint32_t> sums(window.num_positions(), 77);
-  HeadingSweep heading{offsets, sums, {}};
+  HeadingSweep heading{offsets, sums, {}, {}, {}};
   sweep_window(grid, window, rule, min_sum, {&heading, 1});
   return sums;
 }
@@ -81,6 +85,54 @@ RC_GTEST_PROP(WindowSweep, EqualsTheSumOverBeamsAtEveryPosition, (std::uint64_t 
       RC_ASSERT(is_right);
     }
   }
+}
+
+std::uint32_t largest(const CorrelationGrid& grid, const Eigen::Vector2i& first, int side_cells) {
+  std::uint32_t found = 0;
+  for (int row = std::max(first.y(), 0); row < first.y() + side_cells; ++row) {
+    for (int column = std::max(first.x(), 0); column < first.x() + side_cells; ++column) {
+      if (row >= grid.side_cells() || column >= grid.stride()) continue;
+      found = std::max<std::uint32_t>(found, grid.cells()[grid.linear_index({column, row})]);
+    }
+  }
+  return found;
+}
+
+RC_GTEST_PROP(PooledGrid, HoldsTheLargestValueOfSixteenBySixteenCells, (std::uint64_t seed)) {
+  Rng rng(seed);
+  PointColumns points(12, 2);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    points.row(i) << rng.uniform(-1.6, 1.6), rng.uniform(-1.6, 1.6);
+  }
+  // Kernels of 3 cells and of 41, which reach beyond the next cell of the pooled grid.
+  const CorrelationGrid grid = drawn_grid({0.05, 0.2, 1.5, rng.below(2) == 0 ? 0.03 : 0.5}, points);
+  const PooledGrid pooled(grid);
+  for (int row = 0; row < grid.side_cells(); row += PooledGrid::kSide_cells) {
+    for (int column = 0; column < grid.stride(); column += PooledGrid::kSide_cells) {
+      const std::int32_t index =
+          row / PooledGrid::kSide_cells * pooled.stride() + column / PooledGrid::kSide_cells;
+      RC_ASSERT(pooled.cells()[index] == largest(grid, {column, row}, 16));
+    }
+  }
+}
+
+// Twelve end points in one corner, looked up from a window of which the rest cannot see them.
+TEST(SquareBounds, RuleOutWhatIsFarFromEverythingDrawn) {
+  PointColumns points(12, 2);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) << 1.4, 1.0 + 0.05 * double(i);
+  const CorrelationGrid grid = drawn_grid({0.05, 3.2, 1.5, 0.03}, points);
+  std::vector<BeamOffset> offsets;
+  fill_beam_offsets(points, 0, grid, offsets);
+  ASSERT_EQ(offsets.size(), 12u);
+  const int first = grid.middle_cell() - 32;
+  SquareBounds bounds(grid, {first, first, 2, 33});
+  bounds.set(offsets, 0);
+  EXPECT_TRUE(bounds.may_reach(1200, {16, 17}, {16, 17}));  // where all beams meet their points
+  EXPECT_FALSE(bounds.may_reach(1, {0, 4}, {0, 33}));
+  EXPECT_FALSE(bounds.may_reach(1, {0, 33}, {28, 33}));
+  bounds.set(offsets, 3);
+  EXPECT_TRUE(bounds.may_reach(300, {0, 4}, {0, 33}));
+  EXPECT_FALSE(bounds.may_reach(301, {0, 4}, {0, 33}));
 }
 
 TEST(WindowSweep, ABeamThatLeavesSidewaysReadsTheNextRowOnlyWhereRowsWrap) {
