@@ -1,10 +1,12 @@
 #include "baselines/mrpt/conversions.hpp"
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/poses/CPose3D.h>
+#include <mrpt/slam/CICP.h>
 
 #include <chrono>
 #include <cmath>
@@ -59,6 +61,22 @@ std::shared_ptr<::mrpt::obs::CObservationOdometry> to_mrpt(Timestamp stamp,
   return {pose.x_m(), pose.y_m(), pose.theta_rad()};
 }
 
+::mrpt::slam::CICP to_mrpt(const IcpParams& params) {
+  ::mrpt::slam::CICP::TConfigParams icp;
+  icp.ICP_algorithm = params.use_levenberg_marquardt ? ::mrpt::slam::icpLevenbergMarquardt
+                                                     : ::mrpt::slam::icpClassic;
+  icp.maxIterations = static_cast<unsigned>(params.max_iterations);
+  icp.minAbsStep_trans = params.min_step_m;
+  icp.minAbsStep_rot = params.min_step_rad;
+  icp.thresholdDist = params.threshold_m;
+  icp.thresholdAng = params.threshold_rad;
+  icp.ALFA = params.threshold_shrink_ratio;
+  icp.smallestThresholdDist = params.smallest_threshold_m;
+  icp.onlyUniqueRobust = params.use_unique_robust;
+  icp.corresponding_points_decimation = static_cast<unsigned>(params.point_decimation);
+  return ::mrpt::slam::CICP(icp);
+}
+
 Pose2 to_pose2(const ::mrpt::poses::CPose3D& pose) { return {pose.x(), pose.y(), pose.yaw()}; }
 
 GridMap to_grid_map(const ::mrpt::maps::COccupancyGridMap2D& grid) {
@@ -76,6 +94,13 @@ GridMap to_grid_map(const ::mrpt::maps::COccupancyGridMap2D& grid) {
     }
   }
   return map;
+}
+
+GridMap to_grid_map(const ::mrpt::maps::CSimpleMap& key_scans, double cell_size_m) {
+  if (key_scans.empty()) return {};
+  ::mrpt::maps::COccupancyGridMap2D grid(-1, 1, -1, 1, static_cast<float>(cell_size_m));
+  grid.loadFromSimpleMap(key_scans);
+  return to_grid_map(grid);
 }
 
 }  // namespace corridor::mrpt

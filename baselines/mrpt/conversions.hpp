@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "baselines/mrpt/icp_params.hpp"
 #include "slam/core/grid_map.hpp"
 #include "slam/core/pose2.hpp"
 #include "slam/core/scan.hpp"
@@ -11,7 +12,8 @@
 
 namespace mrpt::maps {
 class COccupancyGridMap2D;
-}
+class CSimpleMap;
+}  // namespace mrpt::maps
 namespace mrpt::obs {
 class CObservation2DRangeScan;
 class CObservationOdometry;
@@ -20,6 +22,9 @@ namespace mrpt::poses {
 class CPose2D;
 class CPose3D;
 }  // namespace mrpt::poses
+namespace mrpt::slam {
+class CICP;
+}
 
 namespace corridor::mrpt {
 
@@ -30,11 +35,15 @@ std::shared_ptr<::mrpt::obs::CObservation2DRangeScan> to_mrpt(const LaserScan& s
 std::shared_ptr<::mrpt::obs::CObservationOdometry> to_mrpt(Timestamp stamp,
                                                            const Pose2& T_odom_base);
 ::mrpt::poses::CPose2D to_mrpt(const Pose2& pose);
+::mrpt::slam::CICP to_mrpt(const IcpParams& params);
 
 // x, y and yaw.
 Pose2 to_pose2(const ::mrpt::poses::CPose3D& pose);
 
 // Cells that MRPT never touched (exactly even odds) are unobserved; it keeps no hits.
 GridMap to_grid_map(const ::mrpt::maps::COccupancyGridMap2D& grid);
+
+// MRPT's grid of scans at their poses; empty without scans.
+GridMap to_grid_map(const ::mrpt::maps::CSimpleMap& key_scans, double cell_size_m);
 
 }  // namespace corridor::mrpt

@@ -1,12 +1,12 @@
 #include "baselines/mrpt/mrpt_icp.hpp"
 
 #include <fmt/format.h>
-#include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPose3DPDF.h>
+#include <mrpt/slam/CICP.h>
 #include <mrpt/slam/CMetricMapBuilderICP.h>
 
 #include <exception>
@@ -21,24 +21,9 @@ namespace {
 
 using Builder = ::mrpt::slam::CMetricMapBuilderICP;
 
-::mrpt::slam::CICP::TConfigParams icp_params(const MrptIcpParams& params) {
-  ::mrpt::slam::CICP::TConfigParams icp;
-  icp.ICP_algorithm = ::mrpt::slam::icpClassic;
-  icp.maxIterations = static_cast<unsigned>(params.max_iterations);
-  icp.minAbsStep_trans = params.min_step_m;
-  icp.minAbsStep_rot = params.min_step_rad;
-  icp.thresholdDist = params.threshold_m;
-  icp.thresholdAng = params.threshold_rad;
-  icp.ALFA = params.threshold_shrink_ratio;
-  icp.smallestThresholdDist = params.smallest_threshold_m;
-  icp.onlyUniqueRobust = params.use_unique_robust;
-  icp.corresponding_points_decimation = static_cast<unsigned>(params.point_decimation);
-  return icp;
-}
-
 void configure(Builder& builder, const MrptIcpParams& params) {
   builder.setVerbosityLevel(::mrpt::system::LVL_ERROR);
-  builder.ICP_params = icp_params(params);
+  builder.ICP_params = to_mrpt(params.icp).options;
   auto& options = builder.ICP_options;
   options.matchAgainstTheGrid = false;
   options.localizationLinDistance = params.localization_linear_m;
@@ -57,7 +42,7 @@ void configure(Builder& builder, const MrptIcpParams& params) {
 class MrptIcp final : public SlamSystem {
  public:
   MrptIcp(const MrptIcpParams& params, const RobotModel& robot)
-      : params_(params), range_sigma_m_(robot.lidar.range_sigma_m) {
+      : map_cell_size_m_(params.map_cell_size_m), range_sigma_m_(robot.lidar.range_sigma_m) {
     CORRIDOR_EXPECT(param_violations(params).empty());
     configure(builder_, params);
   }
@@ -87,7 +72,7 @@ class MrptIcp final : public SlamSystem {
     try {
       ::mrpt::maps::CSimpleMap key_scans;
       builder_.getCurrentlyBuiltMap(key_scans);
-      estimate.map = map_of(key_scans);
+      estimate.map = to_grid_map(key_scans, map_cell_size_m_);  // MRPT's, of the scans it inserted
     } catch (const std::exception& error) {
       return fail(ErrorCode::kInternal,
                   fmt::format("MRPT could not build the map: {}", error.what()));
@@ -118,16 +103,7 @@ class MrptIcp final : public SlamSystem {
     }
   }
 
-  // MRPT's own grid of the scans it inserted.
-  [[nodiscard]] GridMap map_of(const ::mrpt::maps::CSimpleMap& key_scans) const {
-    if (key_scans.empty()) return {};
-    ::mrpt::maps::COccupancyGridMap2D grid(-1, 1, -1, 1,
-                                           static_cast<float>(params_.map_cell_size_m));
-    grid.loadFromSimpleMap(key_scans);
-    return to_grid_map(grid);
-  }
-
-  MrptIcpParams params_;
+  double map_cell_size_m_;
   double range_sigma_m_;
   Builder builder_;
   std::optional<Pose2> T_odom_first_;
@@ -142,7 +118,7 @@ MrptIcpParams dense_icp_params() {
   params.localization_angular_rad = 0.035;
   params.insertion_linear_m = 0.3;
   params.insertion_angular_rad = 0.17;
-  params.point_decimation = 1;
+  params.icp.point_decimation = 1;
   return params;
 }
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/random/RandomGenerators.h>
+#include <mrpt/slam/CICP.h>
 #include <mrpt/slam/CMetricMapBuilderRBPF.h>
 
 #include <deque>
@@ -45,6 +48,17 @@ using Builder = ::mrpt::slam::CMetricMapBuilderRBPF;
   return grid;
 }
 
+::mrpt::maps::CSimplePointsMap::TMapDefinition points_definition(const MrptRbpfParams& params) {
+  ::mrpt::maps::CSimplePointsMap::TMapDefinition points;
+  points.insertionOpts.minDistBetweenLaserPoints = static_cast<float>(params.min_point_distance_m);
+  points.insertionOpts.fuseWithExisting = false;
+  points.insertionOpts.isPlanarMap = true;
+  points.likelihoodOpts.sigma_dist = params.points_sigma_m;
+  points.likelihoodOpts.max_corr_distance = params.points_max_distance_m;
+  points.likelihoodOpts.decimation = static_cast<unsigned>(params.points_decimation);
+  return points;
+}
+
 Builder::TConstructionOptions construction_options(const MrptRbpfParams& params) {
   Builder::TConstructionOptions options;
   options.verbosity_level = ::mrpt::system::LVL_ERROR;
@@ -53,22 +67,32 @@ Builder::TConstructionOptions construction_options(const MrptRbpfParams& params)
   options.insertionLinDistance = static_cast<float>(params.insertion_linear_m);
   options.insertionAngDistance = static_cast<float>(params.insertion_angular_rad);
   auto& filter = options.PF_options;
-  filter.PF_algorithm = ::mrpt::bayes::CParticleFilter::pfAuxiliaryPFOptimal;
+  filter.PF_algorithm = params.use_icp_proposal
+                            ? ::mrpt::bayes::CParticleFilter::pfOptimalProposal
+                            : ::mrpt::bayes::CParticleFilter::pfAuxiliaryPFOptimal;
   filter.resamplingMethod = ::mrpt::bayes::CParticleFilter::prMultinomial;
   filter.adaptiveSampleSize = false;
   filter.sampleSize = static_cast<unsigned>(params.num_particles);
   filter.BETA = params.resample_threshold_ratio;
   filter.powFactor = params.likelihood_power;
   filter.pfAuxFilterOptimal_MaximumSearchSamples = static_cast<unsigned>(params.num_search_samples);
-  options.mapsInitializers.push_back(grid_definition(params));
-  options.predictionOptions.pfOptimalProposal_mapSelection = 0;
+  if (params.use_icp_proposal) {
+    constexpr int kMatchAgainstPoints = 3;
+    options.mapsInitializers.push_back(points_definition(params));
+    options.predictionOptions.pfOptimalProposal_mapSelection = kMatchAgainstPoints;
+    options.predictionOptions.ICPGlobalAlign_MinQuality = static_cast<float>(params.min_goodness);
+    options.predictionOptions.icp_params = to_mrpt(params.icp).options;
+  } else {
+    options.mapsInitializers.push_back(grid_definition(params));
+  }
   return options;
 }
 
 class MrptRbpf final : public SlamSystem {
  public:
   MrptRbpf(const MrptRbpfParams& params, const RobotModel& robot, Rng rng)
-      : range_sigma_m_(robot.lidar.range_sigma_m),
+      : map_cell_size_m_(params.cell_size_m),
+        range_sigma_m_(robot.lidar.range_sigma_m),
         rng_(rng.stream("mrpt-rbpf")),
         builder_(construction_options(params)) {
     CORRIDOR_EXPECT(param_violations(params).empty());
@@ -101,8 +125,7 @@ class MrptRbpf final : public SlamSystem {
     }
     try {
       estimate.trajectory = motion::dense_path(records_, key_poses());
-      const auto* maps = builder_.getCurrentlyBuiltMetricMap();
-      estimate.map = to_grid_map(*maps->mapByClass<::mrpt::maps::COccupancyGridMap2D>(0));
+      estimate.map = current_map();
     } catch (const std::exception& error) {
       return fail(ErrorCode::kInternal,
                   fmt::format("MRPT could not give its estimate: {}", error.what()));
@@ -164,6 +187,19 @@ class MrptRbpf final : public SlamSystem {
     return poses;
   }
 
+  // The most likely particle's grid; with maps of points MRPT's grid of the scans in them, each at
+  // the particles' mean.
+  [[nodiscard]] GridMap current_map() const {
+    const auto* maps = builder_.getCurrentlyBuiltMetricMap();
+    if (maps->countMapsByClass<::mrpt::maps::COccupancyGridMap2D>() > 0) {
+      return to_grid_map(*maps->mapByClass<::mrpt::maps::COccupancyGridMap2D>(0));
+    }
+    ::mrpt::maps::CSimpleMap key_scans;
+    builder_.getCurrentlyBuiltMap(key_scans);
+    return to_grid_map(key_scans, map_cell_size_m_);
+  }
+
+  double map_cell_size_m_;
   double range_sigma_m_;
   Rng rng_;
   Builder builder_;
@@ -175,6 +211,38 @@ class MrptRbpf final : public SlamSystem {
 };
 
 }  // namespace
+
+MrptRbpfParams icp_rbpf_params() {
+  MrptRbpfParams params;
+  params.use_icp_proposal = true;
+  params.num_particles = 10;
+  params.localization_linear_m = 0.2;
+  params.localization_angular_rad = 0.17453292519943295;  // 10 deg
+  params.insertion_linear_m = 2;
+  params.insertion_angular_rad = 0.5235987755982988;  // 30 deg
+  params.likelihood_power = 1;
+  params.min_goodness = 0.80;
+  params.icp.use_levenberg_marquardt = true;
+  params.icp.max_iterations = 60;
+  params.icp.threshold_m = 1;
+  params.icp.threshold_shrink_ratio = 0.5;
+  params.icp.smallest_threshold_m = 0.1;
+  params.icp.use_unique_robust = false;
+  return params;
+}
+
+MrptRbpfParams dense_rbpf_params() {
+  MrptRbpfParams params = icp_rbpf_params();
+  params.num_particles = 5;
+  params.localization_angular_rad = 0.1;
+  params.insertion_linear_m = 0.5;
+  params.insertion_angular_rad = 0.35;
+  params.min_goodness = 0.4;
+  params.icp = IcpParams();
+  params.icp.max_iterations = 60;
+  params.icp.point_decimation = 1;
+  return params;
+}
 
 std::unique_ptr<SlamSystem> make_mrpt_rbpf(const MrptRbpfParams& params, const RobotModel& robot,
                                            Rng rng) {

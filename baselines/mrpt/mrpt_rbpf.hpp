@@ -1,10 +1,13 @@
 // MRPT's own RBPF-SLAM (mrpt::slam::CMetricMapBuilderRBPF) as a third-party reference: a particle
-// filter over grid maps with optimal sampling [Blanco2010].
-// The algorithm is MRPT's, unchanged; this door only converts events, poses and the map.
+// filter with one map per particle, whose proposal is either drawn by rejection from the motion
+// model with the scan's likelihood [Blanco2010] or the Gaussian of an ICP match against the
+// particle's map, as in [Grisetti2007]. The algorithm is MRPT's, unchanged; this door only converts
+// events, poses and the map.
 #pragma once
 
 #include <memory>
 
+#include "baselines/mrpt/icp_params.hpp"
 #include "slam/core/params.hpp"
 #include "slam/core/rng.hpp"
 #include "slam/core/robot_model.hpp"
@@ -15,6 +18,7 @@ namespace corridor::mrpt {
 // Defaults: MRPT 2.5's config_files/rbpf-slam/gridmapping_optimal_sampling.ini, angles in radians;
 // what that file does not name (the odometry's noise among it) keeps the library's default.
 struct MrptRbpfParams {
+  bool use_icp_proposal = false;
   int num_particles = 25;
   double localization_linear_m = 1.0;
   double localization_angular_rad = 0.6981317007977318;  // 40 deg
@@ -33,9 +37,19 @@ struct MrptRbpfParams {
   double likelihood_hit_weight = 0.999;
   double likelihood_random_weight = 0.001;
   double likelihood_range_m = 30;
+  double min_goodness = 0.70;
+  IcpParams icp;
+  double min_point_distance_m = 0.05;
+  double points_sigma_m = 0.05;
+  double points_max_distance_m = 5;
+  int points_decimation = 10;
 
   template <class V>
   static void visit(MrptRbpfParams& p, V&& v) {
+    v(ParamInfo{"use_icp_proposal", "",
+                "propose poses by ICP against each particle's map of points; without, by optimal "
+                "sampling over a grid map"},
+      p.use_icp_proposal);
     v(ParamInfo{"num_particles", "1", "number of particles", 1, 10000}, p.num_particles);
     v(ParamInfo{"localization_linear_m", "m", "odometry displacement that makes the filter run", 0,
                 100},
@@ -77,8 +91,30 @@ struct MrptRbpfParams {
       p.likelihood_random_weight);
     v(ParamInfo{"likelihood_range_m", "m", "largest range used in the likelihood", 0.1, 1000},
       p.likelihood_range_m);
+    v(ParamInfo{"min_goodness", "1",
+                "ICP proposal: share of paired points below which odometry is used instead", 0, 1},
+      p.min_goodness);
+    IcpParams::visit(p.icp, v);
+    v(ParamInfo{"min_point_distance_m", "m", "ICP proposal: closer points of the map are dropped",
+                0, 10},
+      p.min_point_distance_m);
+    v(ParamInfo{"points_sigma_m", "m", "ICP proposal: standard deviation of a point in the weights",
+                1e-4, 100},
+      p.points_sigma_m);
+    v(ParamInfo{"points_max_distance_m", "m",
+                "ICP proposal: how far a point looks for one of the map in the weights", 1e-3, 100},
+      p.points_max_distance_m);
+    v(ParamInfo{"points_decimation", "1", "ICP proposal: every n-th point counts in the weights", 1,
+                10000},
+      p.points_decimation);
   }
 };
+
+// MRPT 2.5's config_files/rbpf-slam/gridmapping_RBPF_ICPbased_intel.ini: proposals by ICP.
+MrptRbpfParams icp_rbpf_params();
+
+// The same with a match and a map as dense as the 4.5 m corridor needs: see README.
+MrptRbpfParams dense_rbpf_params();
 
 // Requires parameters without violations. MRPT draws from one generator per process; it is set from
 // `rng` before every step, so that runs in one process do not disturb each other. Online pose: the

@@ -129,11 +129,16 @@ SystemInfo mrpt_icp_entry() {
 SystemInfo mrpt_rbpf_entry() {
   SystemInfo info;
   info.name = "mrpt-rbpf";
-  info.description = "MRPT's own RBPF-SLAM with optimal sampling, a third-party reference";
+  info.description = "MRPT's own RBPF-SLAM, a third-party reference";
   info.needs_wheels = true;
   info.is_stochastic = true;
   set_factory<mrpt::MrptRbpfParams>(
-      info, {{"as-shipped", "as MRPT's grid mapping example is configured", {}}},
+      info,
+      {{"dense", "proposals by ICP of every point every 20 cm against a scan every 50 cm",
+        mrpt::dense_rbpf_params()},
+       {"as-shipped-icp", "as MRPT's example with ICP proposals for intel is configured",
+        mrpt::icp_rbpf_params()},
+       {"as-shipped", "as MRPT's grid mapping example with optimal sampling is configured", {}}},
       [](const mrpt::MrptRbpfParams& params, const SystemRequest& request) -> SystemResult {
         return mrpt::make_mrpt_rbpf(params, request.robot, rng_of(request));
       });

@@ -23,6 +23,10 @@ std::unique_ptr<SlamSystem> rbpf(const RobotModel& robot) {
   return make_mrpt_rbpf({}, robot, Rng(1));
 }
 
+std::unique_ptr<SlamSystem> dense_rbpf(const RobotModel& robot) {
+  return make_mrpt_rbpf(dense_rbpf_params(), robot, Rng(1));
+}
+
 SlamRun run(const SensorLog& log, const Factory& make) {
   const auto slam = make(log.robot);
   SlamRun result;
@@ -97,7 +101,7 @@ TEST(MrptIcp, TracksARoomThatTheOdometryMisjudgesByThreePercent) {
   EXPECT_EQ(result.online.back(), result.estimate.trajectory.back().T_map_base);
 }
 
-TEST(MrptRbpf, TracksARoomThatTheOdometryMisjudgesByThreePercent) {
+TEST(MrptRbpf, WithOptimalSamplingTracksARoomThatTheOdometryMisjudgesByThreePercent) {
   const SensorLog log = testing::room_log();
   const SlamRun result = run(log, rbpf);
   ASSERT_EQ(result.estimate.trajectory.size(), log.truth->size());
@@ -106,6 +110,14 @@ TEST(MrptRbpf, TracksARoomThatTheOdometryMisjudgesByThreePercent) {
   ASSERT_TRUE(result.estimate.map.has_value());
   EXPECT_DOUBLE_EQ(result.estimate.map->resolution_m(), static_cast<double>(0.07F));
   EXPECT_GT(result.estimate.counters.at("key_scans"), 5);
+}
+
+TEST(MrptRbpf, WithIcpProposalsTracksThatRoomToAFewCentimetres) {
+  const SensorLog log = testing::room_log();
+  const SlamRun result = run(log, dense_rbpf);
+  ASSERT_EQ(result.estimate.trajectory.size(), log.truth->size());
+  EXPECT_LT(worst_error_m(result, log), 0.15);
+  EXPECT_GT(share_of_walls_on_map(result, log), 0.8);
 }
 
 TEST(MrptIcp, GivesTheSameBytesTwice) {
@@ -117,6 +129,7 @@ TEST(MrptRbpf, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
   const SensorLog log = testing::room_log({.num_scans = 40});
   const SlamRun first = run(log, rbpf);
   expect_same(first, run(log, rbpf));
+  expect_same(run(log, dense_rbpf), run(log, dense_rbpf));
   const SlamRun other =
       run(log, [](const RobotModel& robot) { return make_mrpt_rbpf({}, robot, Rng(2)); });
   EXPECT_FALSE(first.online == other.online);
@@ -160,13 +173,13 @@ TEST(MrptSlam, SurvivesScansWithoutValidBeamsAndARobotThatStands) {
       std::fill(scan->is_valid.begin(), scan->is_valid.end(), std::uint8_t{0});
     }
   }
-  for (const Factory& make : {Factory(icp), Factory(rbpf)}) {
+  for (const Factory& make : {Factory(icp), Factory(rbpf), Factory(dense_rbpf)}) {
     for (const Pose2& pose : run(log, make).online) EXPECT_TRUE(pose.is_finite());
   }
 }
 
 TEST(MrptSlam, OfNoEventsHasAnEmptyEstimate) {
-  for (const Factory& make : {Factory(icp), Factory(rbpf)}) {
+  for (const Factory& make : {Factory(icp), Factory(rbpf), Factory(dense_rbpf)}) {
     const SlamRun result = run(SensorLog{}, make);
     EXPECT_TRUE(result.estimate.trajectory.empty());
     EXPECT_TRUE(result.estimate.map->empty());
