@@ -233,9 +233,8 @@ MrptRbpfParams icp_rbpf_params() {
 
 MrptRbpfParams dense_rbpf_params() {
   MrptRbpfParams params = icp_rbpf_params();
-  params.num_particles = 5;
   params.localization_angular_rad = 0.1;
-  params.insertion_linear_m = 0.5;
+  params.insertion_linear_m = 1;
   params.insertion_angular_rad = 0.35;
   params.min_goodness = 0.4;
   params.icp = IcpParams();

@@ -134,7 +134,7 @@ SystemInfo mrpt_rbpf_entry() {
   info.is_stochastic = true;
   set_factory<mrpt::MrptRbpfParams>(
       info,
-      {{"dense", "proposals by ICP of every point every 20 cm against a scan every 50 cm",
+      {{"dense", "proposals by ICP of every point every 20 cm against a scan every metre",
         mrpt::dense_rbpf_params()},
        {"as-shipped-icp", "as MRPT's example with ICP proposals for intel is configured",
         mrpt::icp_rbpf_params()},
