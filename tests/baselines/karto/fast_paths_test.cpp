@@ -105,6 +105,16 @@ RC_GTEST_PROP(CorrelativeMatcher, GivesThatWithUnusualParametersToo, (std::uint6
   expect_the_same_by_definition(scene, rng);
 }
 
+// Headings shared out among parts that draw only what is theirs: the walls of one part's headings
+// lie beyond what the next one's margin covers.
+RC_GTEST_PROP(CorrelativeMatcher, GivesThatForAWideWindowOfSmallCellsToo, (std::uint64_t seed)) {
+  Rng rng(seed);
+  Scene scene;
+  scene.spec = {0.015, 1.0, 4, 0.03};
+  scene.no_return_m = 5;
+  expect_the_same_by_definition(scene, rng);
+}
+
 // A kernel so wide that a stamp occupies its neighbours.
 RC_GTEST_PROP(CorrelativeMatcher, GivesThatWithTheWidestKernelToo, (std::uint64_t seed)) {
   Rng rng(seed);
