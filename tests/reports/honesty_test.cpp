@@ -131,6 +131,16 @@ TEST(Caveats, SayWhatATunedProfileIs) {
               Contains(AllOf(StartsWith("Profile tuned"), HasSubstr("has one: karto ("))));
 }
 
+TEST(Caveats, SayThatADenseProfileWasChosenByHand) {
+  std::vector<RunResult> results = synthetic_results({{"mrpt-icp", 0.06}, {"karto", 0.1}}, 2);
+  EXPECT_THAT(html::caveats(make_cases(results)), Not(Contains(StartsWith("Profile dense"))));
+  for (RunResult& result : results) {
+    if (result.system == "mrpt-icp") result.profile = "dense";
+  }
+  EXPECT_THAT(html::caveats(make_cases(results)),
+              Contains(AllOf(StartsWith("Profile dense"), HasSubstr("get lost: mrpt-icp ("))));
+}
+
 TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
   std::vector<RunResult> results = synthetic_results({{"fusion", 0.06}}, 2);
   EXPECT_THAT(html::caveats(make_cases(results)), Contains(HasSubstr("share the form")));
