@@ -146,7 +146,7 @@ SystemInfo mrpt_rbpf_entry() {
 }
 
 SystemResult make_fusion_system(const fusion::FusionParams& params, const SystemRequest& request) {
-  auto back_end = back_end_for(request, "gauss-newton", {});
+  auto back_end = back_end_for(request, "isam2", {});
   if (!back_end) return tl::make_unexpected(back_end.error());
   return fusion::make_fusion(params, request.robot, std::move(*back_end));
 }
@@ -156,7 +156,7 @@ SystemInfo fusion_paper_entry() {
   info.name = "fusion-paper";
   info.description = "LiDAR, IMU and wheels in a factor graph, as published";
   info.needs_imu = true;
-  info.default_backend = "gauss-newton";
+  info.default_backend = "isam2";
   set_factory<fusion::FusionParams>(
       info, {{"published", "the published method", fusion::fusion_paper_params()}},
       make_fusion_system);
@@ -167,7 +167,7 @@ SystemInfo fusion_entry() {
   SystemInfo info;
   info.name = "fusion";
   info.description = "LiDAR, IMU and wheels in a factor graph, per direction, with loop closing";
-  info.default_backend = "gauss-newton";
+  info.default_backend = "isam2";
   set_factory<fusion::FusionParams>(
       info, with_tuned<fusion::FusionParams>("fusion", {{"default", "the defaults", {}}}),
       make_fusion_system);

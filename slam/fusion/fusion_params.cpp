@@ -14,9 +14,12 @@ std::vector<std::string> FusionParams::relations() const {
 
 FusionParams fusion_paper_params() {
   FusionParams params;
+  params.key_distance_m = 0.2;
+  params.key_angle_rad = 0.17;
   params.use_directional_degeneracy = false;
   params.use_statistical_slip_test = false;
   params.use_submaps = false;
+  params.use_submap_refinement = false;
   params.use_wheel_scale = false;
   params.use_majority_vote = false;
   params.use_loop_closing = false;

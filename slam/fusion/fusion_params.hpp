@@ -18,18 +18,19 @@ struct FusionParams {
   bool use_directional_degeneracy = true;  // false: the paper's scalar test of consecutive scans
   bool use_statistical_slip_test = true;   // false: the paper's fixed threshold
   bool use_submaps = true;                 // false: match against the last key scan only
+  bool use_submap_refinement = true;       // match the scans of a finished submap against all of it
   bool use_wheel_scale = true;             // estimate the wheels' common scale error
   bool use_majority_vote = true;           // LiDAR out where wheels and IMU both contradict it
   bool use_loop_closing = true;
 
-  double key_distance_m = 0.2;
-  double key_angle_rad = 0.17;
+  double key_distance_m = 0.1;
+  double key_angle_rad = 0.1;
   double key_interval_s = 2.0;  // only with an IMU, whose errors grow with time
   double max_range_m = 30.0;
 
   double fine_resolution_m = 0.1;
   double coarse_resolution_m = 0.4;
-  int submap_key_scans = 40;
+  int submap_key_scans = 60;
 
   double wheel_translation_floor_m = 0.001;
   double wheel_translation_ratio = 0.005;
@@ -51,12 +52,15 @@ struct FusionParams {
   double lidar_sigma_m = 0.01;           // the paper's constant LiDAR noise
   double lidar_sigma_rad = 0.003;
 
-  double match_prior_sigma_m = 0.1;  // least width of the prediction while matching
-  double match_prior_sigma_rad = 0.05;
+  double match_prior_sigma_m = 0.02;  // least width of the prediction while matching near it
+  double match_prior_sigma_rad = 0.02;
   int hold_unseen_passes = 2;  // further matches, held at the prediction where the last saw nothing
   double vote_gate = 9.0;  // chi-square with 1 degree of freedom, of wheels and IMU each: 3 sigma
   double jump_inlier_ratio = 0.8;  // a match that contradicts the prediction must explain this much
-  double retry_inlier_ratio = 0.7;  // fewer explained points: search the window
+  double retry_inlier_ratio = 0.8;   // fewer explained points: look further away
+  double retry_gain_ratio = 0.2;     // a match from further away must explain this much more
+  double retry_prior_sigma_m = 0.1;  // least width of the prediction while matching further away
+  double retry_prior_sigma_rad = 0.05;
   double retry_window_m = 0.8;
   double retry_window_rad = 0.3;
 
@@ -67,8 +71,15 @@ struct FusionParams {
   double loop_max_window_m = 4.0;
   double loop_max_window_rad = 0.5;
   double loop_min_inlier_ratio = 0.75;
-  double loop_agreement_m = 0.15;  // two closures in a row must agree
+  int loop_min_agreeing = 3;       // closures that agree in pairs before one counts
+  double loop_min_span_m = 1.0;    // path along which they are spread
+  double loop_memory_m = 10.0;     // path after which one that waits is forgotten
+  double loop_agreement_m = 0.15;  // two closures agree, beside the drift between them
   double loop_agreement_rad = 0.05;
+  double loop_link_m =
+      3.0;  // path from the newest closure on which key scans match old submaps directly
+  double loop_sigma_m = 0.02;  // error of a submap's shape, beside a closure's own
+  double loop_sigma_rad = 0.004;
   double loop_gate = 30.0;  // chi-square of a closure after solving; beyond it is taken out
 
   matching::MatcherParams matcher;
@@ -106,6 +117,9 @@ void FusionParams::visit_structure(FusionParams& p, V& v) {
     p.use_statistical_slip_test);
   v(I{"use_submaps", "", "match against a submap; false: against the last key scan"},
     p.use_submaps);
+  v(I{"use_submap_refinement", "",
+      "match the key scans of a finished submap once more, against all of it"},
+    p.use_submap_refinement);
   v(I{"use_wheel_scale", "", "estimate the common scale error of the wheels"}, p.use_wheel_scale);
   v(I{"use_majority_vote", "",
       "leave the LiDAR out along directions in which wheels and IMU both contradict it"},
@@ -171,9 +185,10 @@ void FusionParams::visit_sensors(FusionParams& p, V& v) {
 template <class V>
 void FusionParams::visit_tracking(FusionParams& p, V& v) {
   using I = ParamInfo;
-  v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching", 1e-3, 10},
+  v(I{"match_prior_sigma_m", "m", "least width of the prediction while matching near it", 1e-3, 10},
     p.match_prior_sigma_m);
-  v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching", 1e-3, 3},
+  v(I{"match_prior_sigma_rad", "rad", "least width of the prediction while matching near it", 1e-3,
+      3},
     p.match_prior_sigma_rad);
   v(I{"hold_unseen_passes", "1",
       "further matches, each held at the prediction along what the last did not see", 0, 10},
@@ -184,9 +199,20 @@ void FusionParams::visit_tracking(FusionParams& p, V& v) {
   v(I{"jump_inlier_ratio", "1",
       "smallest share of explained points of a match that contradicts the prediction", 0, 1},
     p.jump_inlier_ratio);
-  v(I{"retry_inlier_ratio", "1", "with fewer explained points the window is searched", 0, 1},
+  v(I{"retry_inlier_ratio", "1",
+      "with fewer explained points a match is sought further away: on the coarse surfels, then in "
+      "the window",
+      0, 1},
     p.retry_inlier_ratio);
-  v(I{"retry_window_m", "m", "half width of that window", 0, 10}, p.retry_window_m);
+  v(I{"retry_gain_ratio", "1", "share of the points that it must explain beyond the near match", 0,
+      1},
+    p.retry_gain_ratio);
+  v(I{"retry_prior_sigma_m", "m", "least width of the prediction on the coarse surfels", 1e-3, 10},
+    p.retry_prior_sigma_m);
+  v(I{"retry_prior_sigma_rad", "rad", "least width of the prediction on the coarse surfels", 1e-3,
+      3},
+    p.retry_prior_sigma_rad);
+  v(I{"retry_window_m", "m", "half width of the window", 0, 10}, p.retry_window_m);
   v(I{"retry_window_rad", "rad", "half width of that window", 0, 3.2}, p.retry_window_rad);
 }
 
@@ -206,9 +232,26 @@ void FusionParams::visit_loops(FusionParams& p, V& v) {
     p.loop_max_window_rad);
   v(I{"loop_min_inlier_ratio", "1", "smallest share of explained points of a closure", 0, 1},
     p.loop_min_inlier_ratio);
-  v(I{"loop_agreement_m", "m", "two closures in a row must agree", 0, 10}, p.loop_agreement_m);
-  v(I{"loop_agreement_rad", "rad", "two closures in a row must agree", 0, 3.2},
+  v(I{"loop_min_agreeing", "1", "closures found by search that must agree in pairs", 1, 100},
+    p.loop_min_agreeing);
+  v(I{"loop_min_span_m", "m", "path along which those are spread at least", 0, 100},
+    p.loop_min_span_m);
+  v(I{"loop_memory_m", "m", "path after which a closure that waits is forgotten", 0, 1e4},
+    p.loop_memory_m);
+  v(I{"loop_agreement_m", "m",
+      "difference at which two closures still agree, beside the drift between them", 0, 10},
+    p.loop_agreement_m);
+  v(I{"loop_agreement_rad", "rad",
+      "difference at which two closures still agree, beside the drift between them", 0, 3.2},
     p.loop_agreement_rad);
+  v(I{"loop_link_m", "m",
+      "path from the newest closure on which key scans are matched against old submaps directly", 0,
+      100},
+    p.loop_link_m);
+  v(I{"loop_sigma_m", "m", "error of a submap's shape, beside a closure's own", 0, 1},
+    p.loop_sigma_m);
+  v(I{"loop_sigma_rad", "rad", "error of a submap's shape, beside a closure's own", 0, 1},
+    p.loop_sigma_rad);
   v(I{"loop_gate", "1", "chi-square beyond which a closure is taken out after solving", 1, 1e6},
     p.loop_gate);
 }

@@ -10,6 +10,7 @@
 #include "slam/fusion/motion_predictor.hpp"
 #include "slam/fusion/scan_path.hpp"
 #include "slam/fusion/scan_tracker.hpp"
+#include "slam/fusion/submap_refiner.hpp"
 #include "slam/graph/graph_source.hpp"
 #include "slam/motion/deskew.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 
 // A prediction that contradicts this many scans in a row is itself the wrong one.
 constexpr int kMaxRefusedInARow = 3;
+// A finished submap is through with this before the next one is finished.
+constexpr int kRefinedPerKeyScan = 3;
 
 class FusionSlam final : public SlamSystem, public graph::GraphSource {
  public:
@@ -28,8 +31,9 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
         back_end_(std::move(back_end)),
         predictor_(robot_, params_),
         local_map_(params_),
-        loop_closer_(params_),
-        loop_edges_(params.loop_gate),
+        refiner_(robot_, params_),
+        loop_closer_(robot_, params_),
+        loop_edges_(params_),
         wheel_noise_(params.max_wheel_noise_factor) {}
 
   std::string_view name() const override {
@@ -51,6 +55,9 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   Result<SlamEstimate> finish() override {
     SlamEstimate result;
     if (key_scans_.empty()) return result;
+    if (params_.use_submap_refinement) {
+      refine_submaps(refiner_.rest(key_scans_, local_map_, estimate()));
+    }
     {
       const auto stage = stage_clock().enter(Stage::kOptimise);
       keep(back_end_->solve());
@@ -145,7 +152,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     add_first_factors(params_, factors);
     begin_imu_states(0, Eigen::Vector2d::Zero(), values, factors);
     keep(back_end_->update(std::move(factors), values, {}));
-    key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), 0});
+    key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp)});
     extend_map();
     begin_interval(scan.stamp);
     anchor_stamp_ = scan.stamp;
@@ -165,7 +172,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
                     const Prediction& prediction) {
     const auto stage = stage_clock().enter(Stage::kMatch);
     Submap& submap = local_map_.active();
-    const Pose2& T_map_submap = estimate().pose(submap.origin_key());
+    const Pose2& T_map_submap = estimate().pose(submap.frame());
     TrackedScan tracked = track_scan(submap, points, T_map_submap.between(T_map_base_), prediction,
                                      robot_, params_, num_refused_in_a_row_ < kMaxRefusedInARow);
     num_refused_in_a_row_ = tracked.is_refused ? num_refused_in_a_row_ + 1 : 0;
@@ -211,7 +218,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       interval.velocity_base_i_mps = velocity_base_mps();
     }
     interval.match = tracked.match;
-    interval.anchor = local_map_.active().origin_key();
+    interval.submap_frame = local_map_.active().frame();
     interval.is_wheel_jump = is_wheel_jump_;
     interval.range_difference_m =
         mean_range_difference_m(before.scan, scan, interval.tracked_T_i_j.theta_rad());
@@ -224,6 +231,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   void add_key_scan(const LaserScan& scan, std::vector<Eigen::Vector2d> points,
                     const TrackedScan& tracked) {
+    std::optional<graph::FactorId> lidar_id;
+    Submap& matched = local_map_.active();
     {
       const auto stage = stage_clock().enter(Stage::kGraph);
       const Interval interval = interval_to(scan, tracked);
@@ -238,11 +247,18 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       keep(back_end_->update(std::move(factors), values, {}));
       num_failed_solves_ += is_solved() ? 0 : 1;
     }
+    if (verdict_.lidar_factor) lidar_id = last_report_.new_factor_ids[*verdict_.lidar_factor];
     if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
-    key_scans_.push_back(
-        {scan, std::move(points), predictor_.wheel_pose_at(scan.stamp), path_m_, twist_});
+    key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp),
+                          tracked.match && tracked.num_outvoted == 0, path_m_, twist_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
+    if (lidar_id && params_.use_submap_refinement)
+      matched.set_factor(last_key(), *lidar_id, tracked.match->num_observable);
+    if (params_.use_submap_refinement) {
+      refine_submaps(refiner_.next(kRefinedPerKeyScan, key_scans_, local_map_, estimate()));
+      T_map_base_ = estimate().pose(last_key());
+    }
     begin_interval(scan.stamp);
   }
 
@@ -262,7 +278,25 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   void extend_map() {
     const auto stage = stage_clock().enter(Stage::kMapUpdate);
-    local_map_.insert(last_key(), estimate(), key_scans_.back().points_base_m);
+    Submap* started = local_map_.insert(last_key(), estimate(), key_scans_.back().points_base_m);
+    if (started == nullptr || !params_.use_submaps) return;
+    graph::Values frame;
+    frame.set_pose(started->frame(), estimate().pose(last_key()));
+    const auto ids =
+        back_end_->add({frame_factor(*started, key_scans_.back(), robot_, params_)}, frame);
+    if (params_.use_submap_refinement) started->set_factor(last_key(), ids.front(), 0);
+  }
+
+  void refine_submaps(std::vector<RefinedPlace> places) {
+    if (places.empty()) return;
+    std::vector<graph::NewFactor> factors;
+    std::vector<graph::FactorId> replaced;
+    for (RefinedPlace& place : places) {
+      factors.push_back(std::move(place.factor));
+      if (place.replaced) replaced.push_back(*place.replaced);
+    }
+    const auto stage = stage_clock().enter(Stage::kOptimise);
+    keep(back_end_->update(std::move(factors), {}, replaced));
   }
 
   void begin_interval(Timestamp stamp) {
@@ -275,10 +309,10 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     if (!params_.use_loop_closing) return;
     const auto stage = stage_clock().enter(Stage::kLoopSearch);
     const std::vector<LoopClosure> closures =
-        loop_closer_.search(key_scans_, local_map_, estimate(), robot_.lidar.range_sigma_m);
+        loop_closer_.search(key_scans_, local_map_, estimate());
     if (closures.empty()) return;
     const auto optimise = stage_clock().enter(Stage::kOptimise);
-    for (backend::BackEndReport& report : loop_edges_.add(closures, path_m_, *back_end_)) {
+    for (backend::BackEndReport& report : loop_edges_.add(closures, *back_end_)) {
       keep(std::move(report));
     }
     loop_closer_.set_last_closure(loop_edges_.last_path_m());
@@ -319,6 +353,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   std::unique_ptr<backend::BackEnd> back_end_;
   MotionPredictor predictor_;
   LocalMap local_map_;
+  SubmapRefiner refiner_;
   LoopCloser loop_closer_;
   LoopEdges loop_edges_;
   ScanPath scan_path_;

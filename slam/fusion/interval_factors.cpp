@@ -49,7 +49,7 @@ LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
 
 graph::RelativePose lidar_factor(const Interval& interval,
                                  const Eigen::Matrix3d& sqrt_information) {
-  return graph::RelativePose(graph::pose_key(interval.anchor), graph::pose_key(interval.j),
+  return graph::RelativePose(graph::pose_key(interval.submap_frame), graph::pose_key(interval.j),
                              interval.match->T_map_base, sqrt_information);
 }
 
@@ -118,6 +118,7 @@ IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& n
     factors.push_back(wheel_factor(interval, noise, wheel_factor_on_sigma));
   }
   if (verdict.is_lidar_used) {
+    verdict.lidar_factor = factors.size();
     factors.push_back(scalar_lidar_factor(interval, lidar_factor_on_sigma, params));
   }
   return verdict;
@@ -142,6 +143,7 @@ IntervalVerdict add_directional_factors(const Interval& interval, const WheelNoi
     factors.push_back(wheel_factor(interval, noise, sigma_factor));
   }
   if (verdict.is_lidar_used) {
+    verdict.lidar_factor = factors.size();
     factors.push_back(
         lidar_factor(interval, graph::square_root_information(interval.match->information)));
   }

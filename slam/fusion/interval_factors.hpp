@@ -20,8 +20,8 @@ struct Interval {
   std::uint32_t i = 0, j = 0;
   std::optional<Pose2> wheel_T_i_j;  // raw odometry
   std::optional<motion::ImuDelta> imu;
-  std::optional<matching::ObservableMatch> match;  // of scan j in the frame of key scan `anchor`
-  std::uint32_t anchor = 0;
+  std::optional<matching::ObservableMatch> match;  // of scan j in the frame of the submap
+  std::uint32_t submap_frame = 0;                  // its pose in the graph
   bool is_wheel_jump = false;  // the LiDAR, seeing every direction, contradicts the wheels
   std::optional<double> range_difference_m;  // of scans i and j, the paper's measure
   Pose2 tracked_T_i_j;                       // by prediction and match together
@@ -36,6 +36,7 @@ struct IntervalVerdict {
   bool is_degenerate = false;
   bool are_wheels_used = false;
   bool is_lidar_used = false;
+  std::optional<std::size_t> lidar_factor;  // place of the LiDAR's among the factors
   bool is_least_bad_kept = false;  // everything but the IMU was excluded, one was taken back
 };
 

@@ -15,15 +15,20 @@ class LocalMap {
  public:
   explicit LocalMap(const FusionParams& params) : params_(params) {}
 
-  // Adds a key scan at its estimated pose to the growing submaps, starts and finishes them.
-  void insert(std::uint32_t key, const graph::Values& estimate,
-              std::span<const Eigen::Vector2d> points_base_m);
+  // Adds a key scan at its estimated pose to the growing submaps, starts and finishes them. Returns
+  // the submap that it started, whose frame is not in the estimate yet, or nullptr.
+  Submap* insert(std::uint32_t key, const graph::Values& estimate,
+                 std::span<const Eigen::Vector2d> points_base_m);
   // The submap new scans are matched against. Requires one insert().
   [[nodiscard]] Submap& active() { return *submaps_[active_]; }
   [[nodiscard]] const Submap& active() const { return *submaps_[active_]; }
   // Finished ones, oldest first.
   [[nodiscard]] std::span<const std::unique_ptr<Submap>> finished() const {
     return {submaps_.data(), active_};
+  }
+  // The active one and what comes after it.
+  [[nodiscard]] std::span<const std::unique_ptr<Submap>> growing() const {
+    return std::span(submaps_).subspan(active_);
   }
   [[nodiscard]] std::size_t num_submaps() const { return submaps_.size(); }
 

@@ -1,33 +1,49 @@
 #include "slam/fusion/loop_edges.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "slam/graph/factors/pose_factors.hpp"
 
 namespace corridor::fusion {
 
-LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double path_m,
+namespace {
+
+// (L^-1 + S)^-1 for an L that may be singular: what the closure says with the error of the submap's
+// shape S on top.
+Eigen::Matrix3d loosened(const Eigen::Matrix3d& L, const FusionParams& params) {
+  const Eigen::Vector3d shape =
+      Eigen::Vector3d(params.loop_sigma_m, params.loop_sigma_m, params.loop_sigma_rad).cwiseAbs2();
+  const Eigen::Matrix3d sum = L + Eigen::Matrix3d(shape.cwiseInverse().asDiagonal());
+  return L - L * sum.ldlt().solve(L);
+}
+
+}  // namespace
+
+LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures,
                                   backend::BackEnd& back_end) {
   std::vector<graph::NewFactor> factors;
-  std::vector<std::uint32_t> scan_keys;
+  std::vector<const LoopClosure*> added;
   for (const LoopClosure& closure : closures) {
     const bool is_closed = std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
       return edge.scan_key == closure.scan_key;
     });
     if (is_closed) continue;
     factors.push_back(graph::RelativePose(
-        graph::pose_key(closure.submap_key), graph::pose_key(closure.scan_key),
-        closure.match.T_map_base, graph::square_root_information(closure.match.information)));
-    scan_keys.push_back(closure.scan_key);
+        graph::pose_key(closure.submap_frame), graph::pose_key(closure.scan_key),
+        closure.match.T_map_base,
+        graph::square_root_information(loosened(closure.match.information, params_))));
+    added.push_back(&closure);
   }
   Outcome solves;
   if (factors.empty()) return solves;
   solves.push_back(back_end.update(std::move(factors), {}, {}));
-  for (std::size_t i = 0; i < scan_keys.size(); ++i) {
+  for (std::size_t i = 0; i < added.size(); ++i) {
     const graph::FactorId id = solves.front().new_factor_ids[i];
-    if (id != backend::kNoFactor) edges_.push_back({id, scan_keys[i], path_m});
+    if (id != backend::kNoFactor)
+      edges_.push_back({id, added[i]->scan_key, added[i]->path_m, added[i]->is_firm});
   }
-  solves.push_back(back_end.solve());
+  if (added.size() > 1) solves.push_back(back_end.solve());
   remove_false_ones(back_end, solves);
   return solves;
 }
@@ -35,14 +51,14 @@ LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures, double 
 void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& solves) {
   const auto chi2 = [&](const Edge& edge) {
     // What a back-end has taken into a prior cannot be taken out any more.
-    if (!back_end.graph().contains(edge.id)) return 0.0;
+    if (edge.is_firm || !back_end.graph().contains(edge.id)) return 0.0;
     return back_end.graph().chi2(edge.id, back_end.estimate());
   };
   while (!edges_.empty()) {
     const auto worst =
         std::max_element(edges_.begin(), edges_.end(),
                          [&](const Edge& a, const Edge& b) { return chi2(a) < chi2(b); });
-    if (!(chi2(*worst) > gate_)) return;
+    if (!(chi2(*worst) > params_.loop_gate)) return;
     solves.push_back(back_end.update({}, {}, {&worst->id, 1}));
     solves.push_back(back_end.solve());
     edges_.erase(worst);

@@ -14,17 +14,16 @@ namespace corridor::fusion {
 
 class LoopEdges {
  public:
-  // gate: chi-square of one closure after solving beyond which it counts as false.
-  explicit LoopEdges(double gate) : gate_(gate) {}
+  explicit LoopEdges(const FusionParams& params) : params_(params) {}
 
   using Outcome =
       std::vector<backend::BackEndReport>;  // of the solves, in order; empty: none added
 
-  // Adds the closures of key scans that have none and solves. path_m: travelled up to now. Then,
-  // while one of all closures is beyond the gate, takes out the worst and solves again: a false
+  // Adds the closures of key scans that have none and solves. Then, while one of all closures is
+  // beyond the gate and not firm, takes out the worst and solves again: a false
   // closure bends the graph and puts true ones beyond the gate too, which come back when it is
   // gone.
-  Outcome add(std::span<const LoopClosure> closures, double path_m, backend::BackEnd& back_end);
+  Outcome add(std::span<const LoopClosure> closures, backend::BackEnd& back_end);
 
   [[nodiscard]] std::size_t num_in_graph() const { return edges_.size(); }
   [[nodiscard]] int num_removed() const { return num_removed_; }
@@ -36,10 +35,11 @@ class LoopEdges {
     graph::FactorId id;
     std::uint32_t scan_key;
     double path_m;
+    bool is_firm;
   };
   void remove_false_ones(backend::BackEnd& back_end, Outcome& solves);
 
-  double gate_;
+  const FusionParams& params_;
   std::vector<Edge> edges_;  // those in the graph, in order of time
   int num_removed_ = 0;
 };

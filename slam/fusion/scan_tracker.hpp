@@ -33,4 +33,12 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
                        const Pose2& T_submap_last, const Prediction& prediction,
                        const RobotModel& robot, const FusionParams& params, bool may_refuse);
 
+// What a scan that lies in the submap, at about T_submap_base, says of its own place there; nullopt
+// if the submap does not explain it.
+std::optional<matching::ObservableMatch> match_again(Submap& submap,
+                                                     std::span<const Eigen::Vector2d> points_base_m,
+                                                     const Pose2& T_submap_base,
+                                                     const RobotModel& robot,
+                                                     const FusionParams& params);
+
 }  // namespace corridor::fusion

@@ -13,9 +13,10 @@
 namespace corridor::matching {
 
 struct ObservabilityParams {
-  double min_information_ratio = 0.01;  // of the best direction's; below it a direction is not seen
-  double min_spurious_factor = 4.0;     // times what noisy normals alone would show
-  double translation_floor_m = 0.004;   // systematic error of a match
+  double min_information_ratio =
+      0.003;                           // of the best direction's; below it a direction is not seen
+  double min_spurious_factor = 2.0;    // times what noisy normals alone would show
+  double translation_floor_m = 0.004;  // systematic error of a match
   double rotation_floor_rad = 0.0008;
 
   template <class V>

@@ -8,8 +8,6 @@
 namespace corridor::fusion {
 namespace {
 
-constexpr double kGate = 30;
-
 // Key scans 0 to 10, a metre apart on the x axis; odometry between them is good to 5 cm.
 class LoopEdgesTest : public ::testing::Test {
  protected:
@@ -31,6 +29,7 @@ class LoopEdgesTest : public ::testing::Test {
   static LoopClosure closure(std::uint32_t key, double x_m) {
     LoopClosure result;
     result.scan_key = key;
+    result.path_m = key;
     result.match.T_map_base = Pose2(x_m, 0, 0);
     result.match.information = 1e4 * Eigen::Matrix3d::Identity();
     result.match.num_observable = 3;
@@ -39,12 +38,13 @@ class LoopEdgesTest : public ::testing::Test {
 
   std::unique_ptr<backend::BackEnd> back_end_ =
       backend::make_least_squares(backend::LeastSquaresParams{});
-  LoopEdges edges_{kGate};
+  FusionParams params_;
+  LoopEdges edges_{params_};
 };
 
 TEST_F(LoopEdgesTest, AClosureThatAgreesStays) {
   const std::vector<LoopClosure> closures = {closure(10, 10.05)};
-  EXPECT_FALSE(edges_.add(closures, 10, *back_end_).empty());
+  EXPECT_FALSE(edges_.add(closures, *back_end_).empty());
   EXPECT_EQ(edges_.num_in_graph(), 1u);
   EXPECT_EQ(edges_.num_removed(), 0);
   EXPECT_EQ(edges_.last_path_m(), 10);
@@ -54,7 +54,7 @@ TEST_F(LoopEdgesTest, AClosureThatAgreesStays) {
 TEST_F(LoopEdgesTest, AFalseClosureIsTakenOutAndTheTrueOneThatItBentStays) {
   // Together, both are far beyond the gate; alone, the true one fits.
   const std::vector<LoopClosure> closures = {closure(9, 5), closure(10, 10)};
-  (void)edges_.add(closures, 10, *back_end_);
+  (void)edges_.add(closures, *back_end_);
   EXPECT_EQ(edges_.num_in_graph(), 1u);
   EXPECT_EQ(edges_.num_removed(), 1);
   EXPECT_NEAR(back_end_->estimate().pose(9).x_m(), 9, 1e-3);
@@ -64,10 +64,10 @@ TEST_F(LoopEdgesTest, AFalseClosureIsTakenOutAndTheTrueOneThatItBentStays) {
 TEST_F(LoopEdgesTest, ALaterClosureCanProveAnEarlierOneFalse) {
   // A metre off: the chain before it gives way, until both neighbours say otherwise.
   const std::vector<LoopClosure> wrong = {closure(9, 10)};
-  (void)edges_.add(wrong, 9, *back_end_);
+  (void)edges_.add(wrong, *back_end_);
   EXPECT_EQ(edges_.num_in_graph(), 1u);
   const std::vector<LoopClosure> right = {closure(8, 8), closure(10, 10)};
-  (void)edges_.add(right, 10, *back_end_);
+  (void)edges_.add(right, *back_end_);
   EXPECT_EQ(edges_.num_in_graph(), 2u);
   EXPECT_EQ(edges_.num_removed(), 1);
   EXPECT_NEAR(back_end_->estimate().pose(9).x_m(), 9, 1e-3);
@@ -75,21 +75,21 @@ TEST_F(LoopEdgesTest, ALaterClosureCanProveAnEarlierOneFalse) {
 
 TEST_F(LoopEdgesTest, AKeyScanIsClosedOnce) {
   const std::vector<LoopClosure> closures = {closure(10, 10)};
-  (void)edges_.add(closures, 10, *back_end_);
-  EXPECT_TRUE(edges_.add(closures, 10, *back_end_).empty());
+  (void)edges_.add(closures, *back_end_);
+  EXPECT_TRUE(edges_.add(closures, *back_end_).empty());
   EXPECT_EQ(edges_.num_in_graph(), 1u);
 }
 
 TEST_F(LoopEdgesTest, AKeyScanWhoseFalseClosureIsGoneCanBeClosedAgainAndNothingElseStays) {
   const std::vector<LoopClosure> wrong = {closure(10, 0)};
-  (void)edges_.add(wrong, 10, *back_end_);
+  (void)edges_.add(wrong, *back_end_);
   // Alone against the chain it bends everything; the next one proves it false.
   const std::vector<LoopClosure> right = {closure(9, 9)};
-  (void)edges_.add(right, 10.5, *back_end_);
+  (void)edges_.add(right, *back_end_);
   ASSERT_EQ(edges_.num_removed(), 1);
-  EXPECT_EQ(edges_.last_path_m(), 10.5);
+  EXPECT_EQ(edges_.last_path_m(), 9);
   const std::vector<LoopClosure> again = {closure(10, 10)};
-  EXPECT_FALSE(edges_.add(again, 11, *back_end_).empty());
+  EXPECT_FALSE(edges_.add(again, *back_end_).empty());
   EXPECT_EQ(edges_.num_in_graph(), 2u);
 }
 
