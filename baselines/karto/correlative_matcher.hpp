@@ -1,6 +1,6 @@
 // Correlative scan-to-local-map matching in two stages, coarse and fine.
-// [Konolige2010] section IV, [Olson2009]; as shipped by Karto. It searches a fixed window of poses,
-// all of them; it has no gradient.
+// [Konolige2010] section IV, [Olson2009]; as shipped by Karto. It answers for all poses of a fixed
+// window, those that cannot be taken by a bound; it has no gradient.
 #pragma once
 
 #include <span>

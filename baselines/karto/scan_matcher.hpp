@@ -17,7 +17,8 @@ struct MatchOptions {
   // The caller takes no match that responds with this or less: a search without refinement need
   // not tell such poses apart, and may report a smaller response.
   double min_response = 0;
-  // A wide search may be shared out to the threads of the present task arena. Changes no result.
+  // A wide search may be shared out to the threads of the present task arena. Changes no match that
+  // is taken.
   bool use_threads = false;
 };
 

@@ -1,5 +1,5 @@
-// Keeps the end points of a scan whose surface is seen from its front at another viewpoint.
-// It does not know what hides a surface, only on which side of it the viewpoint lies.
+// Which end points of a scan to keep: those whose surface is seen from its front at another
+// viewpoint. It does not know what hides a surface, only on which side of it the viewpoint lies.
 #pragma once
 
 #include <Eigen/Core>

@@ -66,30 +66,34 @@ struct MrptRbpfParams {
       p.resample_threshold_ratio);
     v(ParamInfo{"likelihood_power", "1", "likelihoods are raised to this power", 1e-6, 10},
       p.likelihood_power);
-    v(ParamInfo{"num_search_samples", "1", "samples of the optimal proposal per particle", 1,
-                100000},
+    v(ParamInfo{"num_search_samples", "1", "optimal sampling: samples of the proposal per particle",
+                1, 100000},
       p.num_search_samples);
-    v(ParamInfo{"cell_size_m", "m", "side of a cell of the particles' maps", 0.01, 1},
-      p.cell_size_m);
-    v(ParamInfo{"insertion_range_m", "m", "largest range written into the maps", 0.1, 1000},
+    v(ParamInfo{"cell_size_m", "m", "side of a cell of the map", 0.01, 1}, p.cell_size_m);
+    v(ParamInfo{"insertion_range_m", "m", "optimal sampling: largest range written into the maps",
+                0.1, 1000},
       p.insertion_range_m);
-    v(ParamInfo{"max_occupancy_certainty", "1", "probability that one beam gives a cell", 0.5,
-                0.999},
+    v(ParamInfo{"max_occupancy_certainty", "1",
+                "optimal sampling: probability that one beam gives a cell", 0.5, 0.999},
       p.max_occupancy_certainty);
-    v(ParamInfo{"use_no_returns", "", "beams without return clear space"}, p.use_no_returns);
-    v(ParamInfo{"likelihood_decimation", "1", "every n-th beam is used in the likelihood", 1,
-                10000},
+    v(ParamInfo{"use_no_returns", "", "optimal sampling: beams without return clear space"},
+      p.use_no_returns);
+    v(ParamInfo{"likelihood_decimation", "1",
+                "optimal sampling: every n-th beam is used in the likelihood", 1, 10000},
       p.likelihood_decimation);
-    v(ParamInfo{"likelihood_sigma_m", "m", "standard deviation of a hit", 1e-4, 100},
+    v(ParamInfo{"likelihood_sigma_m", "m", "optimal sampling: standard deviation of a hit", 1e-4,
+                100},
       p.likelihood_sigma_m);
-    v(ParamInfo{"likelihood_max_distance_m", "m", "how far an end point looks for an occupied cell",
-                1e-3, 100},
+    v(ParamInfo{"likelihood_max_distance_m", "m",
+                "optimal sampling: how far an end point looks for an occupied cell", 1e-3, 100},
       p.likelihood_max_distance_m);
-    v(ParamInfo{"likelihood_hit_weight", "1", "weight of the hit term", 0, 1},
+    v(ParamInfo{"likelihood_hit_weight", "1", "optimal sampling: weight of the hit term", 0, 1},
       p.likelihood_hit_weight);
-    v(ParamInfo{"likelihood_random_weight", "1", "weight of the random term", 0, 1},
+    v(ParamInfo{"likelihood_random_weight", "1", "optimal sampling: weight of the random term", 0,
+                1},
       p.likelihood_random_weight);
-    v(ParamInfo{"likelihood_range_m", "m", "largest range used in the likelihood", 0.1, 1000},
+    v(ParamInfo{"likelihood_range_m", "m", "optimal sampling: largest range used in the likelihood",
+                0.1, 1000},
       p.likelihood_range_m);
     v(ParamInfo{"min_goodness", "1",
                 "ICP proposal: share of paired points below which odometry is used instead", 0, 1},
@@ -113,13 +117,15 @@ struct MrptRbpfParams {
 // MRPT 2.5's config_files/rbpf-slam/gridmapping_RBPF_ICPbased_intel.ini: proposals by ICP.
 MrptRbpfParams icp_rbpf_params();
 
-// The same with a match and a map as dense as the 4.5 m corridor needs: see README.
+// Proposals by the classic ICP with every point, and denser matches and maps, as the 4.5 m corridor
+// needs them: see README.
 MrptRbpfParams dense_rbpf_params();
 
-// Requires parameters without violations. MRPT draws from one generator per process; it is set from
+// Requires parameters without violations. MRPT draws from one generator per thread; it is set from
 // `rng` before every step, so that runs in one process do not disturb each other. Online pose: the
 // particles' mean. finish(): the most likely particle's path, scans between its updates filled in
-// from odometry, and its map.
+// from odometry, and its map; with ICP proposals the particles have maps of points, and the grid is
+// made of the scans in them at the particles' mean poses.
 std::unique_ptr<SlamSystem> make_mrpt_rbpf(const MrptRbpfParams& params, const RobotModel& robot,
                                            Rng rng);
 

@@ -77,9 +77,11 @@ void append_configuration(const Cases& cases, std::vector<std::string>& sentence
   std::set<std::string> shipped;
   std::set<std::string> tuned;
   std::set<std::string> dense;
+  std::set<std::string> shipped_for_a_log;
   for (const Series& series : cases.series()) {
     if (!series.overrides.empty()) continue;
     if (series.profile == "as-shipped") shipped.insert(series.system);
+    if (series.profile == "as-shipped-icp") shipped_for_a_log.insert(series.system);
     if (series.profile == "tuned") tuned.insert(series.system);
     if (series.profile == "dense") dense.insert(series.system);
   }
@@ -89,6 +91,12 @@ void append_configuration(const Cases& cases, std::vector<std::string>& sentence
         "run is named in the label: a profile, or what was set by hand (set: ...). No such "
         "profile was tuned for these data.",
         fmt::join(shipped, ", ")));
+  }
+  if (!shipped_for_a_log.empty()) {
+    sentences.push_back(fmt::format(
+        "Profile as-shipped-icp is what MRPT ships for the log of the Intel Research Lab: {}. On "
+        "intel its authors have tuned it.",
+        fmt::join(shipped_for_a_log, ", ")));
   }
   if (!tuned.empty()) {
     sentences.push_back(fmt::format(

@@ -141,6 +141,18 @@ TEST(Caveats, SayThatADenseProfileWasChosenByHand) {
               Contains(AllOf(StartsWith("Profile dense"), HasSubstr("get lost: mrpt-icp ("))));
 }
 
+TEST(Caveats, SayForWhichLogAProfileWasShipped) {
+  std::vector<RunResult> results = synthetic_results({{"mrpt-rbpf", 0.06}, {"karto", 0.1}}, 2);
+  EXPECT_THAT(html::caveats(make_cases(results)),
+              Not(Contains(StartsWith("Profile as-shipped-icp"))));
+  for (RunResult& result : results) {
+    if (result.system == "mrpt-rbpf") result.profile = "as-shipped-icp";
+  }
+  EXPECT_THAT(
+      html::caveats(make_cases(results)),
+      Contains(AllOf(StartsWith("Profile as-shipped-icp"), HasSubstr(": mrpt-rbpf. On intel"))));
+}
+
 TEST(Caveats, SpeakOfTheSimulatorOnlyWhereOneWasUsed) {
   std::vector<RunResult> results = synthetic_results({{"fusion", 0.06}}, 2);
   EXPECT_THAT(html::caveats(make_cases(results)), Contains(HasSubstr("share the form")));

@@ -87,6 +87,58 @@ RC_GTEST_PROP(WindowSweep, EqualsTheSumOverBeamsAtEveryPosition, (std::uint64_t 
   }
 }
 
+// Beams that stay inside, some of which meet something drawn: a window that the bound can thin out.
+struct InnerScene {
+  explicit InnerScene(Rng& rng)
+      : grid(drawn_grid({0.05, 3.2, 1.5, 0.03}, points_of(rng))),
+        step(1 + static_cast<int>(rng.below(2))),
+        count(1 + static_cast<int>(rng.below(64 / static_cast<std::uint32_t>(step)))),
+        window{grid.middle_cell() - count * step / 2, grid.middle_cell() - count * step / 2, step,
+               count} {
+    // What is drawn, seen from somewhere in the window.
+    const Eigen::RowVector2d from(rng.uniform(-1.4, 1.4), rng.uniform(-1.4, 1.4));
+    const PointColumns beams = drawn.rowwise() - from;
+    fill_beam_offsets(beams, 0, grid, offsets);
+  }
+
+  PointColumns points_of(Rng& rng) {
+    drawn.resize(40, 2);
+    const Eigen::RowVector2d middle(rng.uniform(-1, 1), rng.uniform(-1, 1));
+    for (Eigen::Index i = 0; i < drawn.rows(); ++i) {
+      drawn.row(i) = middle + Eigen::RowVector2d(rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5));
+    }
+    return drawn;
+  }
+
+  PointColumns drawn;
+  CorrelationGrid grid;
+  int step, count;
+  SweepWindow window;
+  std::vector<BeamOffset> offsets;
+};
+
+TEST(WindowSweep, LeavesOutPositionsBelowABoundAndNoneThatReachesIt) {
+  int num_left_out = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Rng rng(seed);
+    const InnerScene scene(rng);
+    for (const EdgeRule rule : {EdgeRule::kWrap, EdgeRule::kStop}) {
+      const auto exact = by_definition(scene.grid, scene.offsets, scene.window, rule);
+      const std::uint32_t most = *std::max_element(exact.begin(), exact.end());
+      const auto min_sum = static_cast<std::uint32_t>(rng.uniform(0.7, 1.0) * most);
+      const auto bounded = swept(scene.grid, scene.offsets, scene.window, rule, min_sum);
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        ASSERT_LE(bounded[i], exact[i]) << seed;
+        if (exact[i] >= min_sum) {
+          ASSERT_EQ(bounded[i], exact[i]) << seed;
+        }
+        num_left_out += bounded[i] < exact[i] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(num_left_out, 1000);
+}
+
 std::uint32_t largest(const CorrelationGrid& grid, const Eigen::Vector2i& first, int side_cells) {
   std::uint32_t found = 0;
   for (int row = std::max(first.y(), 0); row < first.y() + side_cells; ++row) {

@@ -112,12 +112,21 @@ TEST(MrptRbpf, WithOptimalSamplingTracksARoomThatTheOdometryMisjudgesByThreePerc
   EXPECT_GT(result.estimate.counters.at("key_scans"), 5);
 }
 
-TEST(MrptRbpf, WithIcpProposalsTracksThatRoomToAFewCentimetres) {
+TEST(MrptRbpf, WithIcpProposalsTracksThatRoomAsWellAsIcpAlone) {
   const SensorLog log = testing::room_log();
   const SlamRun result = run(log, dense_rbpf);
   ASSERT_EQ(result.estimate.trajectory.size(), log.truth->size());
   EXPECT_LT(worst_error_m(result, log), 0.15);
   EXPECT_GT(share_of_walls_on_map(result, log), 0.8);
+}
+
+TEST(MrptRbpf, AsShippedForIntelTracksThatRoomToo) {
+  const SensorLog log = testing::room_log();
+  const SlamRun result = run(log, [](const RobotModel& robot) {
+    return make_mrpt_rbpf(icp_rbpf_params(), robot, Rng(1));
+  });
+  ASSERT_EQ(result.estimate.trajectory.size(), log.truth->size());
+  EXPECT_LT(worst_error_m(result, log), 0.3);
 }
 
 TEST(MrptIcp, GivesTheSameBytesTwice) {
@@ -129,10 +138,15 @@ TEST(MrptRbpf, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
   const SensorLog log = testing::room_log({.num_scans = 40});
   const SlamRun first = run(log, rbpf);
   expect_same(first, run(log, rbpf));
-  expect_same(run(log, dense_rbpf), run(log, dense_rbpf));
+  const SlamRun dense = run(log, dense_rbpf);
+  expect_same(dense, run(log, dense_rbpf));
   const SlamRun other =
       run(log, [](const RobotModel& robot) { return make_mrpt_rbpf({}, robot, Rng(2)); });
   EXPECT_FALSE(first.online == other.online);
+  const SlamRun other_dense = run(log, [](const RobotModel& robot) {
+    return make_mrpt_rbpf(dense_rbpf_params(), robot, Rng(2));
+  });
+  EXPECT_FALSE(dense.online == other_dense.online);
 }
 
 TEST(MrptRbpf, IsNotDisturbedByAnotherFilterInTheSameProcess) {
