@@ -30,7 +30,7 @@ struct FusionParams {
 
   double fine_resolution_m = 0.1;
   double coarse_resolution_m = 0.4;
-  int submap_key_scans = 60;
+  int submap_key_scans = 40;
 
   double wheel_translation_floor_m = 0.001;
   double wheel_translation_ratio = 0.005;

@@ -16,8 +16,8 @@ struct ObservabilityParams {
   double min_information_ratio =
       0.003;                           // of the best direction's; below it a direction is not seen
   double min_spurious_factor = 2.0;    // times what noisy normals alone would show
-  double translation_floor_m = 0.004;  // systematic error of a match
-  double rotation_floor_rad = 0.0008;
+  double translation_floor_m = 0.002;  // systematic error of a match
+  double rotation_floor_rad = 0.0004;
 
   template <class V>
   static void visit(ObservabilityParams& p, V&& v) {
