@@ -75,7 +75,7 @@ class DeadReckoning final : public SlamSystem {
     const double bias = rate_sum_ / num_bias_samples_;
     // What was integrated so far was the bias of a robot at rest.
     turned_before_rad_ += rotated_rad - bias * gyro_.delta().duration_s;
-    gyro_.reset({bias, 0, 0});
+    gyro_.reset({bias, 0, 0, 0});
     scan_unmeasured_s_ = 0;
   }
 

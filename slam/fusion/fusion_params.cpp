@@ -21,6 +21,10 @@ FusionParams fusion_paper_params() {
   params.use_submaps = false;
   params.use_submap_refinement = false;
   params.use_wheel_scale = false;
+  params.use_wheel_turn = false;
+  params.use_wheel_delay = false;
+  params.use_axle_pose = false;
+  params.use_gyro_scale = false;
   params.use_majority_vote = false;
   params.use_loop_closing = false;
   params.hold_unseen_passes = 0;

@@ -20,6 +20,10 @@ struct FusionParams {
   bool use_submaps = true;                 // false: match against the last key scan only
   bool use_submap_refinement = true;       // match the scans of a finished submap against all of it
   bool use_wheel_scale = true;             // estimate the wheels' common scale error
+  bool use_wheel_turn = true;              // estimate unequal wheels and the track's error
+  bool use_wheel_delay = true;             // estimate the wheels' clock against the LiDAR's
+  bool use_axle_pose = true;               // estimate where the wheels' axle lies under the LiDAR
+  bool use_gyro_scale = true;              // estimate the gyro's scale error
   bool use_majority_vote = true;           // LiDAR out where wheels and IMU both contradict it
   bool use_loop_closing = true;
 
@@ -38,7 +42,15 @@ struct FusionParams {
   double wheel_rotation_per_m_rad = 0.01;
   double wheel_rotation_ratio = 0.03;
   double wheel_scale_sigma = 0.02;
-  double max_wheel_noise_factor = 50;  // of the online adaptation to bad wheels
+  double wheel_unbalance_sigma_radpm = 0.03;
+  double wheel_turn_sigma = 0.05;
+  double wheel_delay_sigma_s = 0.1;
+  double axle_position_sigma_m = 0.1;
+  double axle_heading_sigma_rad = 0.03;
+  double gyro_scale_sigma = 0.01;
+  double calibration_interval_m = 20;    // path from one state of the calibration to the next
+  double calibration_walk_ratio = 0.02;  // its change over that path, as a share of the priors
+  double max_wheel_noise_factor = 50;    // of the online adaptation to bad wheels
 
   double initial_velocity_sigma_mps = 1.0;
   double gyro_bias_sigma_radps = 0.01;
@@ -121,6 +133,14 @@ void FusionParams::visit_structure(FusionParams& p, V& v) {
       "match the key scans of a finished submap once more, against all of it"},
     p.use_submap_refinement);
   v(I{"use_wheel_scale", "", "estimate the common scale error of the wheels"}, p.use_wheel_scale);
+  v(I{"use_wheel_turn", "",
+      "estimate the turn that unequal wheels hide and the error of the track"},
+    p.use_wheel_turn);
+  v(I{"use_wheel_delay", "", "estimate the delay of the wheels' clock against the LiDAR's"},
+    p.use_wheel_delay);
+  v(I{"use_axle_pose", "", "estimate where the wheels' axle lies in the frame of the LiDAR's base"},
+    p.use_axle_pose);
+  v(I{"use_gyro_scale", "", "estimate the scale error of the gyro"}, p.use_gyro_scale);
   v(I{"use_majority_vote", "",
       "leave the LiDAR out along directions in which wheels and IMU both contradict it"},
     p.use_majority_vote);
@@ -155,6 +175,25 @@ void FusionParams::visit_sensors(FusionParams& p, V& v) {
   v(I{"wheel_scale_sigma", "1",
       "standard deviation of the wheels' scale error before it is measured", 1e-6, 1},
     p.wheel_scale_sigma);
+  v(I{"wheel_unbalance_sigma_radpm", "rad/m",
+      "the same for the turn that unequal wheels hide, per path", 1e-6, 1},
+    p.wheel_unbalance_sigma_radpm);
+  v(I{"wheel_turn_sigma", "1", "the same for the share by which the track misjudges a turn", 1e-6,
+      1},
+    p.wheel_turn_sigma);
+  v(I{"wheel_delay_sigma_s", "s", "the same for the delay of the wheels' clock", 1e-6, 0.2},
+    p.wheel_delay_sigma_s);
+  v(I{"axle_position_sigma_m", "m", "the same for the place of the axle's middle in the base", 1e-6,
+      1},
+    p.axle_position_sigma_m);
+  v(I{"axle_heading_sigma_rad", "rad", "the same for the axle's heading in the base", 1e-6, 1},
+    p.axle_heading_sigma_rad);
+  v(I{"gyro_scale_sigma", "1", "the same for the gyro's scale error", 1e-6, 1}, p.gyro_scale_sigma);
+  v(I{"calibration_interval_m", "m", "path from one state of the wheels' calibration to the next",
+      0.1, 1e6},
+    p.calibration_interval_m);
+  v(I{"calibration_walk_ratio", "1", "its change over that path, as a share of the priors", 0, 1},
+    p.calibration_walk_ratio);
   v(I{"max_wheel_noise_factor", "1",
       "limit of the adaptation of the wheel noise to what the LiDAR shows", 1, 1e4},
     p.max_wheel_noise_factor);

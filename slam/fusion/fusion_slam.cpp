@@ -3,14 +3,17 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/fusion/calibration.hpp"
 #include "slam/fusion/interval_factors.hpp"
 #include "slam/fusion/local_map.hpp"
 #include "slam/fusion/loop_closer.hpp"
 #include "slam/fusion/loop_edges.hpp"
 #include "slam/fusion/motion_predictor.hpp"
+#include "slam/fusion/run_counters.hpp"
 #include "slam/fusion/scan_path.hpp"
 #include "slam/fusion/scan_tracker.hpp"
 #include "slam/fusion/submap_refiner.hpp"
+#include "slam/graph/factors/motion_factors.hpp"
 #include "slam/graph/graph_source.hpp"
 #include "slam/motion/deskew.hpp"
 
@@ -80,8 +83,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   std::uint32_t last_key() const { return static_cast<std::uint32_t>(key_scans_.size() - 1); }
 
   void keep(backend::BackEndReport report) {
-    num_relinearized_ += report.num_relinearized;
-    num_dropped_factors_ += report.num_dropped_factors;
+    counters_.count(report);
     last_report_ = std::move(report);
   }
 
@@ -105,16 +107,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     }
     scan_path_.add(scan.stamp, last_key(), estimate().pose(last_key()).between(T_map_base_));
     last_scan_stamp_ = scan.stamp;
-    if (!is_solved()) report.status = StepStatus::kLost;
+    if (!is_solved(last_report_)) report.status = StepStatus::kLost;
     report.T_map_base = T_map_base_;
     report.is_slip_detected = verdict_.is_slip;
     report.is_degenerate = verdict_.is_degenerate;
     return report;
-  }
-
-  bool is_solved() const {
-    return last_report_.status == backend::SolveStatus::kConverged ||
-           last_report_.status == backend::SolveStatus::kMaxIterations;
   }
 
   Prediction predict(Timestamp stamp) {
@@ -122,7 +119,6 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     MotionState state;
     state.wheel_noise_factor = wheel_noise_.factor();
     state.twist = twist_;
-    if (!key_scans_.empty()) state.wheel_scale = estimate().wheel_scale(0);
     if (is_velocity_known_) {
       state.velocity_mps = velocity_base_mps();
       state.velocity_variance_m2ps2 = velocity_variance_m2ps2(
@@ -147,12 +143,12 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   void start(const LaserScan& scan, std::vector<Eigen::Vector2d> points) {
     graph::Values values;
     values.set_pose(0, Pose2());
-    values.set_wheel_scale(0, 0);
+    values.set_wheel_calibration(0, motion::WheelCalibration::Zero());
     std::vector<graph::NewFactor> factors;
     add_first_factors(params_, factors);
     begin_imu_states(0, Eigen::Vector2d::Zero(), values, factors);
     keep(back_end_->update(std::move(factors), values, {}));
-    key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp)});
+    key_scans_.push_back({scan, std::move(points)});
     extend_map();
     begin_interval(scan.stamp);
     anchor_stamp_ = scan.stamp;
@@ -164,8 +160,21 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     if (has_imu_ || !predictor_.has_reading()) return;
     has_imu_ = true;
     values.set_velocity(key, velocity_map_mps);
-    values.set_bias(key, Eigen::Vector3d::Zero());
+    values.set_bias(key, motion::ImuBias::Zero());
     add_imu_priors(key, params_, factors);
+  }
+
+  // The calibration changes slowly: now and then it gets a new state.
+  void begin_calibration(graph::Values& values, std::vector<graph::NewFactor>& factors) {
+    if (!is_wheel_calibration_estimated(params_) ||
+        path_m_ - calibration_path_m_ < params_.calibration_interval_m) {
+      return;
+    }
+    calibration_path_m_ = path_m_;
+    values.set_wheel_calibration(calibration_ + 1, estimate().wheel_calibration(calibration_));
+    factors.push_back(graph::WheelCalibrationWalk(calibration_, calibration_ + 1,
+                                                  wheel_calibration_walk(params_)));
+    ++calibration_;
   }
 
   TrackedScan track(Timestamp stamp, std::span<const Eigen::Vector2d> points,
@@ -180,7 +189,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     T_map_base_ = T_map_submap * tracked.T_submap_base;
     path_m_ += T_last_now.translation_m().norm();
     twist_ = T_last_now.log() / seconds_between(last_scan_stamp_, stamp);
-    num_outvoted_ += tracked.num_outvoted;
+    counters_.count_outvoted(tracked.num_outvoted);
     watch_wheels(tracked);
     return tracked;
   }
@@ -207,11 +216,6 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     Interval interval;
     interval.i = last_key();
     interval.j = interval.i + 1;
-    const KeyScan& before = key_scans_.back();
-    const std::optional<Pose2> wheels = predictor_.wheel_pose_at(scan.stamp);
-    if (before.wheel_T_odom_base && wheels) {
-      interval.wheel_T_i_j = before.wheel_T_odom_base->between(*wheels);
-    }
     interval.tracked_T_i_j = estimate().pose(interval.i).between(T_map_base_);
     if (has_imu_) {
       interval.imu = predictor_.imu_interval();
@@ -221,8 +225,10 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     interval.submap_frame = local_map_.active().frame();
     interval.is_wheel_jump = is_wheel_jump_;
     interval.range_difference_m =
-        mean_range_difference_m(before.scan, scan, interval.tracked_T_i_j.theta_rad());
-    interval.wheel_scale = estimate().wheel_scale(0);
+        mean_range_difference_m(key_scans_.back().scan, scan, interval.tracked_T_i_j.theta_rad());
+    interval.wheels = predictor_.wheel_interval();
+    interval.calibration = calibration_;
+    interval.wheel_calibration = estimate().wheel_calibration(calibration_);
     interval.velocity_sigma_mps =
         is_velocity_known_ ? params_.velocity_sigma_mps : params_.initial_velocity_sigma_mps;
     interval.anchor_age_s = seconds_between(anchor_stamp_, scan.stamp);
@@ -239,18 +245,18 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       is_velocity_known_ = is_velocity_known_ || interval.imu.has_value();
       std::vector<graph::NewFactor> factors;
       verdict_ = add_interval_factors(interval, robot_, wheel_noise_.factor(), params_, factors);
-      count_verdict();
+      counters_.count(verdict_);
       scan_path_.add_arrival(interval.tracked_T_i_j);
       graph::Values values = initial_values(interval);
+      begin_calibration(values, factors);
       begin_imu_states(interval.j, T_map_base_.rotation() * twist_.head<2>(), values, factors);
       const auto optimise = stage_clock().enter(Stage::kOptimise);
       keep(back_end_->update(std::move(factors), values, {}));
-      num_failed_solves_ += is_solved() ? 0 : 1;
     }
     if (verdict_.lidar_factor) lidar_id = last_report_.new_factor_ids[*verdict_.lidar_factor];
     if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
-    key_scans_.push_back({scan, std::move(points), predictor_.wheel_pose_at(scan.stamp),
-                          tracked.match && tracked.num_outvoted == 0, path_m_, twist_});
+    key_scans_.push_back(
+        {scan, std::move(points), tracked.match && tracked.num_outvoted == 0, path_m_, twist_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
     if (lidar_id && params_.use_submap_refinement)
@@ -302,7 +308,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   void begin_interval(Timestamp stamp) {
     is_wheel_jump_ = false;
     predictor_.reset_interval(
-        stamp, has_imu_ ? estimate().bias(last_key()) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+        stamp, has_imu_ ? estimate().bias(last_key()) : motion::ImuBias(motion::ImuBias::Zero()),
+        estimate().wheel_calibration(calibration_));
   }
 
   void close_loops() {
@@ -319,33 +326,16 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     T_map_base_ = estimate().pose(last_key());
   }
 
-  void count_verdict() {
-    num_slips_ += verdict_.is_slip ? 1 : 0;
-    num_degenerate_ += verdict_.is_degenerate ? 1 : 0;
-    num_least_bad_ += verdict_.is_least_bad_kept ? 1 : 0;
-  }
-
   void fill_counters(std::map<std::string, double>& counters) const {
+    counters_.write(counters);
+    write_calibration(estimate(), calibration_, last_key(), has_imu_, counters);
     counters["imu_used"] = has_imu_ ? 1 : 0;
-    counters["failed_solves"] = num_failed_solves_;
     counters["key_scans"] = static_cast<double>(key_scans_.size());
     counters["submaps"] = static_cast<double>(local_map_.num_submaps());
     counters["loop_candidates"] = loop_closer_.num_candidates();
     counters["loop_closures"] = static_cast<double>(loop_edges_.num_in_graph());
     counters["loop_closures_removed"] = loop_edges_.num_removed();
-    counters["slip_intervals"] = num_slips_;
-    counters["degenerate_intervals"] = num_degenerate_;
-    counters["outvoted_directions"] = num_outvoted_;
-    counters["least_bad_kept"] = num_least_bad_;
     counters["wheel_noise_factor"] = wheel_noise_.factor();
-    counters["wheel_scale"] = estimate().wheel_scale(0);
-    counters["chi2"] = last_report_.chi2;
-    counters["factors"] = static_cast<double>(last_report_.num_factors);
-    counters["variables"] = static_cast<double>(last_report_.num_variables);
-    counters["relinearised"] = static_cast<double>(num_relinearized_);
-    if (num_dropped_factors_ > 0) {
-      counters["dropped_factors"] = static_cast<double>(num_dropped_factors_);
-    }
   }
 
   const FusionParams params_;
@@ -359,7 +349,9 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   ScanPath scan_path_;
   WheelNoiseAdapter wheel_noise_;
 
-  bool has_imu_ = false;  // the last key scan has states of the IMU
+  std::uint32_t calibration_ = 0;  // number of the wheels' present calibration
+  double calibration_path_m_ = 0;  // where it began
+  bool has_imu_ = false;           // the last key scan has states of the IMU
   std::vector<KeyScan> key_scans_;
   Pose2 T_map_base_;
   Eigen::Vector3d twist_ = Eigen::Vector3d::Zero();  // between the last two scans, per second
@@ -371,10 +363,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   int num_refused_in_a_row_ = 0;
   IntervalVerdict verdict_;
   backend::BackEndReport last_report_;
-  int num_slips_ = 0, num_degenerate_ = 0, num_least_bad_ = 0, num_failed_solves_ = 0;
-  int num_outvoted_ = 0;
-  std::int64_t num_relinearized_ = 0;
-  std::int64_t num_dropped_factors_ = 0;  // by a back-end that forgets
+  RunCounters counters_;
 };
 
 }  // namespace

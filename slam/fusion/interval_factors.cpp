@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/fusion/calibration.hpp"
 #include "slam/graph/factors/motion_factors.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
 
@@ -23,10 +24,6 @@ constexpr double kTrackedSigma_rad = 0.2;
 constexpr double kNearlyThere = 0.9;
 // A view that does not change at all is this bad at most.
 constexpr double kLeastDifference_m = 1e-6;
-// Of a wheel scale that is not estimated.
-constexpr double kFixedScaleSigma = 1e-6;
-// A bias always walks a little, so that the factor stays defined for ideal sensors.
-constexpr double kMinBiasWalk = 1e-7;
 
 struct LidarChoice {
   double sigma_factor = 1;  // on the constant noise of the paper's constraint
@@ -37,8 +34,8 @@ struct LidarChoice {
 LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
                               const FusionParams& params) {
   LidarChoice choice;
-  const bool has_moved = interval.wheel_T_i_j && interval.wheel_T_i_j->translation_m().norm() >=
-                                                     kNearlyThere * params.degeneracy_travel_m;
+  const bool has_moved = interval.wheels && interval.wheels->raw_T_i_j().translation_m().norm() >=
+                                                kNearlyThere * params.degeneracy_travel_m;
   if (!interval.range_difference_m || !has_moved) return choice;
   const double threshold_m =
       params.degeneracy_floor_factor * range_difference_floor_m(robot.lidar.range_sigma_m);
@@ -67,31 +64,30 @@ graph::RelativePose tracked_factor(const Interval& interval) {
 }
 
 graph::WheelMotion wheel_factor(const Interval& interval, const WheelNoise& noise,
-                                double sigma_factor) {
+                                double sigma_factor, const FusionParams& params) {
   Eigen::Vector3d weight(1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.translation_sigma_m * sigma_factor),
                          1 / (noise.rotation_sigma_rad * sigma_factor));
-  if (interval.imu && interval.imu->unmeasured_s == 0)
-    weight(2) = 0;  // the gyro knows the turn better than unequal wheels
+  // The gyro knows the turn better than wheels of which nobody knows how unequal they are.
+  if (!params.use_wheel_turn && interval.imu && interval.imu->unmeasured_s == 0) weight(2) = 0;
   return graph::WheelMotion(graph::pose_key(interval.i), graph::pose_key(interval.j),
-                            graph::wheel_scale_key(0), *interval.wheel_T_i_j, weight.asDiagonal());
+                            graph::wheel_calibration_key(interval.calibration), *interval.wheels,
+                            weight.asDiagonal());
 }
 
 void add_imu_factors(const Interval& interval, const ImuModel& imu,
                      std::vector<NewFactor>& factors) {
   factors.push_back(graph::ImuMotion(interval.i, interval.j, *interval.imu));
   factors.push_back(
-      graph::BiasWalk(interval.i, interval.j, bias_walk_sigma(imu, interval.imu->duration_s)));
+      graph::BiasWalk(interval.i, interval.j, imu_bias_walk(imu, interval.imu->duration_s)));
 }
 
 SlipTest slip_of(const Interval& interval, const WheelNoise& noise, const RobotModel& robot,
                  const FusionParams& params) {
-  if (!interval.wheel_T_i_j || !interval.imu || interval.imu->unmeasured_s > 0) return {};
-  const Pose2& raw = *interval.wheel_T_i_j;
-  const double scale = 1 + interval.wheel_scale;
-  return test_slip(Pose2(scale * raw.x_m(), scale * raw.y_m(), raw.theta_rad()), noise,
-                   *interval.imu, interval.velocity_base_i_mps, interval.velocity_sigma_mps,
-                   interval.anchor_age_s, robot.imu, params);
+  if (!interval.wheels || !interval.imu || interval.imu->unmeasured_s > 0) return {};
+  return test_slip(interval.wheels->base_motion(interval.wheel_calibration), noise, *interval.imu,
+                   interval.velocity_base_i_mps, interval.velocity_sigma_mps, interval.anchor_age_s,
+                   robot.imu, params);
 }
 
 // The published method: each sensor in or out as a whole.
@@ -102,20 +98,20 @@ IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& n
   IntervalVerdict verdict;
   verdict.is_slip = slip.is_slip;
   verdict.is_degenerate = lidar.badness >= 1;
-  verdict.are_wheels_used = interval.wheel_T_i_j && !verdict.is_slip;
+  verdict.are_wheels_used = interval.wheels && !verdict.is_slip;
   verdict.is_lidar_used = interval.match && !verdict.is_degenerate;
   double wheel_factor_on_sigma = adaptive_factor(slip.measure_over_threshold);
   double lidar_factor_on_sigma = lidar.sigma_factor;
   if (!verdict.are_wheels_used && !verdict.is_lidar_used) {
     verdict.is_least_bad_kept = true;
     verdict.are_wheels_used =
-        interval.wheel_T_i_j && (!interval.match || slip.measure_over_threshold < lidar.badness);
+        interval.wheels && (!interval.match || slip.measure_over_threshold < lidar.badness);
     verdict.is_lidar_used = interval.match && !verdict.are_wheels_used;
     wheel_factor_on_sigma *= kLeastBadFactor;
     lidar_factor_on_sigma *= kLeastBadFactor;
   }
   if (verdict.are_wheels_used) {
-    factors.push_back(wheel_factor(interval, noise, wheel_factor_on_sigma));
+    factors.push_back(wheel_factor(interval, noise, wheel_factor_on_sigma, params));
   }
   if (verdict.is_lidar_used) {
     verdict.lidar_factor = factors.size();
@@ -127,20 +123,21 @@ IntervalVerdict add_scalar_factors(const Interval& interval, const WheelNoise& n
 // Ours: the LiDAR enters along the directions it sees, the wheels unless a test says no.
 IntervalVerdict add_directional_factors(const Interval& interval, const WheelNoise& noise,
                                         const SlipTest& slip, double wheel_noise_factor,
+                                        const FusionParams& params,
                                         std::vector<NewFactor>& factors) {
   IntervalVerdict verdict;
   verdict.is_slip = slip.is_slip || interval.is_wheel_jump;
   const int num_observable = interval.match ? interval.match->num_observable : 0;
   verdict.is_degenerate = num_observable < 3;
   verdict.is_lidar_used = num_observable > 0;
-  verdict.are_wheels_used = interval.wheel_T_i_j && !verdict.is_slip;
+  verdict.are_wheels_used = interval.wheels && !verdict.is_slip;
   double sigma_factor = wheel_noise_factor;
-  if (interval.wheel_T_i_j && !verdict.are_wheels_used && verdict.is_degenerate && !interval.imu) {
+  if (interval.wheels && !verdict.are_wheels_used && verdict.is_degenerate && !interval.imu) {
     verdict.is_least_bad_kept = verdict.are_wheels_used = true;
     sigma_factor *= kLeastBadFactor;
   }
   if (verdict.are_wheels_used) {
-    factors.push_back(wheel_factor(interval, noise, sigma_factor));
+    factors.push_back(wheel_factor(interval, noise, sigma_factor, params));
   }
   if (verdict.is_lidar_used) {
     verdict.lidar_factor = factors.size();
@@ -152,24 +149,17 @@ IntervalVerdict add_directional_factors(const Interval& interval, const WheelNoi
 
 }  // namespace
 
-Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s) {
-  const double root_s = std::sqrt(duration_s);
-  const double gyro = std::max(imu.gyro_bias_walk_radps_sqrt_s * root_s, kMinBiasWalk);
-  const double accel = std::max(imu.accel_bias_walk_mps2_sqrt_s * root_s, kMinBiasWalk);
-  return {gyro, accel, accel};
-}
-
 IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel& robot,
                                      double wheel_noise_factor, const FusionParams& params,
                                      std::vector<NewFactor>& factors) {
   if (interval.imu) add_imu_factors(interval, robot.imu, factors);
-  const WheelNoise noise = interval.wheel_T_i_j
-                               ? nominal_wheel_noise(*interval.wheel_T_i_j, robot.wheels, params)
-                               : WheelNoise{};
+  const WheelNoise noise =
+      interval.wheels ? nominal_wheel_noise(interval.wheels->raw_T_i_j(), robot.wheels, params)
+                      : WheelNoise{};
   const SlipTest slip = slip_of(interval, noise, robot, params);
   const IntervalVerdict verdict =
       params.use_directional_degeneracy
-          ? add_directional_factors(interval, noise, slip, wheel_noise_factor, factors)
+          ? add_directional_factors(interval, noise, slip, wheel_noise_factor, params, factors)
           : add_scalar_factors(interval, noise, slip, robot, params, factors);
   // Nothing else ties the new state: hold it loosely where it was tracked.
   const bool is_lidar_whole = verdict.is_lidar_used && !verdict.is_degenerate;
@@ -182,18 +172,15 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
 void add_first_factors(const FusionParams& params, std::vector<NewFactor>& factors) {
   factors.push_back(
       graph::PosePrior(graph::pose_key(0), Pose2(), Eigen::Matrix3d::Identity() / kGaugeSigma));
-  const double scale_sigma = params.use_wheel_scale ? params.wheel_scale_sigma : kFixedScaleSigma;
-  using Scale = graph::WheelScalePrior::Vector;
-  factors.push_back(graph::WheelScalePrior(0, Scale(0.0), Scale(scale_sigma)));
+  factors.push_back(graph::WheelCalibrationPrior(0, motion::WheelCalibration::Zero(),
+                                                 wheel_calibration_sigma(params)));
 }
 
 void add_imu_priors(std::uint32_t key, const FusionParams& params,
                     std::vector<NewFactor>& factors) {
   factors.push_back(graph::VelocityPrior(
       key, Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(params.initial_velocity_sigma_mps)));
-  factors.push_back(graph::BiasPrior(
-      key, Eigen::Vector3d::Zero(),
-      {params.gyro_bias_sigma_radps, params.accel_bias_sigma_mps2, params.accel_bias_sigma_mps2}));
+  factors.push_back(graph::BiasPrior(key, motion::ImuBias::Zero(), imu_bias_sigma(params)));
 }
 
 }  // namespace corridor::fusion

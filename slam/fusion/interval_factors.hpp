@@ -12,13 +12,16 @@
 #include "slam/graph/any_factor.hpp"
 #include "slam/matching/observability.hpp"
 #include "slam/motion/imu_preintegration.hpp"
+#include "slam/motion/wheel_preintegration.hpp"
 
 namespace corridor::fusion {
 
 // What the sensors said between key scan i and key scan j = i + 1.
 struct Interval {
   std::uint32_t i = 0, j = 0;
-  std::optional<Pose2> wheel_T_i_j;  // raw odometry
+  std::optional<motion::WheelDelta> wheels;
+  motion::WheelCalibration wheel_calibration = motion::WheelCalibration::Zero();  // estimated
+  std::uint32_t calibration = 0;                                                  // its number
   std::optional<motion::ImuDelta> imu;
   std::optional<matching::ObservableMatch> match;  // of scan j in the frame of the submap
   std::uint32_t submap_frame = 0;                  // its pose in the graph
@@ -27,7 +30,6 @@ struct Interval {
   Pose2 tracked_T_i_j;                       // by prediction and match together
   Eigen::Vector2d velocity_base_i_mps = Eigen::Vector2d::Zero();
   double velocity_sigma_mps = 0;
-  double wheel_scale = 0;
   double anchor_age_s = 0;
 };
 
@@ -45,14 +47,12 @@ IntervalVerdict add_interval_factors(const Interval& interval, const RobotModel&
                                      double wheel_noise_factor, const FusionParams& params,
                                      std::vector<graph::NewFactor>& factors);
 
-// The factors that fix the gauge, key scan 0 at T_map_base = identity, and start the wheels' scale.
+// The factors that fix the gauge, key scan 0 at T_map_base = identity, and start the wheels'
+// calibration.
 void add_first_factors(const FusionParams& params, std::vector<graph::NewFactor>& factors);
 
 // Priors on the velocity and the biases of the key scan at which the IMU's states begin.
 void add_imu_priors(std::uint32_t key, const FusionParams& params,
                     std::vector<graph::NewFactor>& factors);
-
-// Covariance of the change of the bias over a time, as a standard deviation per component.
-Eigen::Vector3d bias_walk_sigma(const ImuModel& imu, double duration_s);
 
 }  // namespace corridor::fusion

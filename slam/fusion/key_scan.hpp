@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "slam/core/scan.hpp"
@@ -12,7 +11,6 @@ namespace corridor::fusion {
 struct KeyScan {
   LaserScan scan;
   std::vector<Eigen::Vector2d> points_base_m;  // deskewed, valid, within the used range
-  std::optional<Pose2> wheel_T_odom_base;      // raw odometry at the scan's stamp
   bool is_trusted = true;  // no direction of its match was outvoted, nor was it refused
   double path_m = 0;       // travelled by the estimate up to here
   // Motion during the sweep, for the map: (x [m/s], y [m/s], theta [rad/s]) in base.

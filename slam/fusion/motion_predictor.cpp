@@ -48,20 +48,29 @@ std::optional<MotionEstimate> MotionPredictor::by_imu(Timestamp stamp,
   return MotionEstimate{motion, noise.covariance()};
 }
 
+std::optional<motion::WheelDelta> MotionPredictor::advance_wheels(Timestamp stamp) {
+  // Before the first one there is nothing to measure from.
+  const Timestamp since = last_wheel_stamp_.value_or(stamp);
+  std::optional<motion::WheelDelta> step = wheels_.between(since, stamp, calibration_);
+  if (!step) return std::nullopt;
+  wheel_delta_.append(*step);
+  last_wheel_stamp_ = stamp;
+  return step;
+}
+
 Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
   imu_.advance_to(stamp);
   Prediction prediction;
-  const std::optional<Pose2> wheel_pose = wheels_.pose_at(stamp);
+  const bool were_wheels_known = last_wheel_stamp_ && last_wheel_stamp_ == last_stamp_;
+  const std::optional<motion::WheelDelta> step = advance_wheels(stamp);
   WheelNoise noise{kUnknownTranslation_m, kUnknownRotation_rad};
   Pose2 motion;
-  if (wheel_pose && last_wheel_T_odom_base_) {
+  if (step && were_wheels_known) {
     prediction.has_wheels = true;
-    const Pose2 measured = last_wheel_T_odom_base_->between(*wheel_pose);
-    noise = nominal_wheel_noise(measured, robot_.wheels, params_);
+    noise = nominal_wheel_noise(step->raw_T_i_j(), robot_.wheels, params_);
     noise.translation_sigma_m *= state.wheel_noise_factor;
     noise.rotation_sigma_rad *= state.wheel_noise_factor;
-    motion = {(1 + state.wheel_scale) * measured.x_m(), (1 + state.wheel_scale) * measured.y_m(),
-              measured.theta_rad()};
+    motion = step->base_motion(calibration_);
     prediction.by_wheels = MotionEstimate{motion, noise.covariance()};
   } else {
     motion = motion_without_wheels(stamp, state);
@@ -74,18 +83,26 @@ Prediction MotionPredictor::predict(Timestamp stamp, const MotionState& state) {
   }
   prediction.by_imu = by_imu(stamp, state);
   last_imu_delta_ = imu_.delta();
-  last_wheel_T_odom_base_ = wheel_pose;
   last_stamp_ = stamp;
   prediction.T_last_now = motion;
   prediction.covariance = noise.covariance();
   return prediction;
 }
 
-void MotionPredictor::reset_interval(Timestamp stamp, const Eigen::Vector3d& bias) {
+void MotionPredictor::reset_interval(Timestamp stamp, const motion::ImuBias& bias,
+                                     const motion::WheelCalibration& calibration) {
   is_imu_in_use_ = imu_.has_reading();
   imu_.advance_to(stamp);
   imu_.reset(bias);
   last_imu_delta_ = imu_.delta();
+  calibration_ = calibration;
+  wheel_delta_ = motion::WheelDelta(calibration);
+  did_wheels_know_begin_ = last_wheel_stamp_ == stamp;
+}
+
+std::optional<motion::WheelDelta> MotionPredictor::wheel_interval() const {
+  if (!did_wheels_know_begin_ || last_wheel_stamp_ != last_stamp_) return std::nullopt;
+  return wheel_delta_;
 }
 
 std::optional<motion::ImuDelta> MotionPredictor::imu_interval() const {

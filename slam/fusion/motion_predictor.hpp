@@ -34,7 +34,6 @@ struct Prediction {
 
 // What the estimator knows when it asks for a prediction.
 struct MotionState {
-  double wheel_scale = 0;         // estimated error: true motion is (1 + wheel_scale) * measured
   double wheel_noise_factor = 1;  // on the wheels' standard deviations
   // Of the base where the key interval began, in the base frame there; none while unknown.
   std::optional<Eigen::Vector2d> velocity_mps;
@@ -53,17 +52,20 @@ class MotionPredictor {
   [[nodiscard]] bool has_reading() const { return imu_.has_reading(); }
   // The IMU is used from the first key interval on that began with a reading.
   [[nodiscard]] bool has_imu() const { return is_imu_in_use_; }
-  [[nodiscard]] std::optional<Pose2> wheel_pose_at(Timestamp stamp) const {
-    return wheels_.pose_at(stamp);
-  }
   // Motion since the last call; integrates the IMU up to the stamp.
   Prediction predict(Timestamp stamp, const MotionState& state);
-  // Starts a new key interval at `stamp` with these biases.
-  void reset_interval(Timestamp stamp, const Eigen::Vector3d& bias);
+  // Starts a new key interval at `stamp`, that of the last predict(), with these biases and this
+  // calibration of the wheels.
+  void reset_interval(Timestamp stamp, const motion::ImuBias& bias,
+                      const motion::WheelCalibration& calibration);
   // The IMU since reset_interval; nullopt without IMU or when nothing was integrated.
   [[nodiscard]] std::optional<motion::ImuDelta> imu_interval() const;
+  // The wheels since reset_interval; nullopt where they did not know its begin or its end.
+  [[nodiscard]] std::optional<motion::WheelDelta> wheel_interval() const;
 
  private:
+  // What the wheels say of the time since they were last known; goes on with the interval.
+  [[nodiscard]] std::optional<motion::WheelDelta> advance_wheels(Timestamp stamp);
   // No part of the motion since the last call went by without a reading.
   [[nodiscard]] bool is_gyro_whole() const {
     return imu_.delta().unmeasured_s == last_imu_delta_.unmeasured_s;
@@ -79,7 +81,11 @@ class MotionPredictor {
   const FusionParams& params_;
   motion::WheelTrack wheels_;
   motion::ImuTrack imu_;
-  std::optional<Pose2> last_wheel_T_odom_base_;
+  motion::WheelCalibration calibration_ = motion::WheelCalibration::Zero();
+  // Of the running interval, up to the last scan at which the wheels were known.
+  motion::WheelDelta wheel_delta_;
+  bool did_wheels_know_begin_ = false;
+  std::optional<Timestamp> last_wheel_stamp_;
   std::optional<Timestamp> last_stamp_;
   motion::ImuDelta last_imu_delta_;  // of the running interval, at the last scan
   bool is_imu_in_use_ = false;

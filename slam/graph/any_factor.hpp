@@ -15,8 +15,9 @@
 
 namespace corridor::graph {
 
-using AnyFactor = std::variant<PosePrior, RelativePose, ImuMotion, WheelMotion, BiasWalk,
-                               VelocityPrior, BiasPrior, WheelScalePrior, GaussianPrior>;
+using AnyFactor =
+    std::variant<PosePrior, RelativePose, ImuMotion, WheelMotion, BiasWalk, WheelCalibrationWalk,
+                 VelocityPrior, BiasPrior, WheelCalibrationPrior, GaussianPrior>;
 
 // A factor on its way into a graph, with the kernel that bounds its influence.
 struct NewFactor {

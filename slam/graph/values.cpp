@@ -24,7 +24,7 @@ void with_slots(VariableKind kind, const Visit& visit) {
       return visit(std::integral_constant<std::size_t, 1>());
     case VariableKind::kBias:
       return visit(std::integral_constant<std::size_t, 2>());
-    case VariableKind::kWheelScale:
+    case VariableKind::kWheelCalibration:
       return visit(std::integral_constant<std::size_t, 3>());
   }
 }
@@ -52,7 +52,7 @@ void difference(const Vector& value, const Vector& origin, double* delta) {
 }  // namespace
 
 std::string to_text(Key key) {
-  constexpr const char* kNames[] = {"pose", "velocity", "bias", "wheel scale"};
+  constexpr const char* kNames[] = {"pose", "velocity", "bias", "wheel calibration"};
   return std::string(kNames[static_cast<std::size_t>(key.kind)]) + " " + std::to_string(key.index);
 }
 
@@ -77,14 +77,15 @@ void Values::set_velocity(std::uint32_t index, const Eigen::Vector2d& velocity_m
   set<VariableKind::kVelocity>(index, velocity_mps);
 }
 
-void Values::set_bias(std::uint32_t index, const Eigen::Vector3d& bias) {
+void Values::set_bias(std::uint32_t index, const motion::ImuBias& bias) {
   CORRIDOR_EXPECT(bias.allFinite());
   set<VariableKind::kBias>(index, bias);
 }
 
-void Values::set_wheel_scale(std::uint32_t index, double scale_ratio) {
-  CORRIDOR_EXPECT(std::isfinite(scale_ratio));
-  set<VariableKind::kWheelScale>(index, Eigen::Matrix<double, 1, 1>(scale_ratio));
+void Values::set_wheel_calibration(std::uint32_t index,
+                                   const motion::WheelCalibration& calibration) {
+  CORRIDOR_EXPECT(calibration.allFinite());
+  set<VariableKind::kWheelCalibration>(index, calibration);
 }
 
 bool Values::contains(Key key) const {

@@ -13,6 +13,8 @@
 #include "slam/core/pose2.hpp"
 #include "slam/graph/key.hpp"
 #include "slam/graph/slot_range.hpp"
+#include "slam/motion/imu_preintegration.hpp"
+#include "slam/motion/wheel_preintegration.hpp"
 
 namespace corridor::graph {
 
@@ -42,8 +44,8 @@ struct OrientedPose {
 class Values {
   // Indices are dense by convention.
   using AllSlots =
-      std::tuple<SlotRange<OrientedPose>, SlotRange<Eigen::Vector2d>, SlotRange<Eigen::Vector3d>,
-                 SlotRange<Eigen::Matrix<double, 1, 1>>>;  // in the order of VariableKind
+      std::tuple<SlotRange<OrientedPose>, SlotRange<Eigen::Vector2d>, SlotRange<motion::ImuBias>,
+                 SlotRange<motion::WheelCalibration>>;  // in the order of VariableKind
 
   template <VariableKind kKind>
   [[nodiscard]] const auto& get(std::uint32_t index) const {
@@ -56,8 +58,8 @@ class Values {
   // Each sets or replaces; the value must be finite.
   void set_pose(std::uint32_t index, const Pose2& T_map_base);
   void set_velocity(std::uint32_t index, const Eigen::Vector2d& velocity_mps);
-  void set_bias(std::uint32_t index, const Eigen::Vector3d& bias);
-  void set_wheel_scale(std::uint32_t index, double scale_ratio);
+  void set_bias(std::uint32_t index, const motion::ImuBias& bias);
+  void set_wheel_calibration(std::uint32_t index, const motion::WheelCalibration& calibration);
 
   [[nodiscard]] bool contains(Key key) const;
   // Each requires contains(key).
@@ -68,11 +70,11 @@ class Values {
   [[nodiscard]] const Eigen::Vector2d& velocity(std::uint32_t index) const {
     return get<VariableKind::kVelocity>(index);
   }
-  [[nodiscard]] const Eigen::Vector3d& bias(std::uint32_t index) const {
+  [[nodiscard]] const motion::ImuBias& bias(std::uint32_t index) const {
     return get<VariableKind::kBias>(index);
   }
-  [[nodiscard]] double wheel_scale(std::uint32_t index) const {
-    return get<VariableKind::kWheelScale>(index)(0);
+  [[nodiscard]] const motion::WheelCalibration& wheel_calibration(std::uint32_t index) const {
+    return get<VariableKind::kWheelCalibration>(index);
   }
   // Of a variable that is not a pose.
   template <VariableKind kKind>

@@ -19,8 +19,8 @@ constexpr double kUnmeasuredAcceleration_mps2 = 1.0;
 
 }  // namespace
 
-ImuDelta ImuDelta::corrected(const Eigen::Vector3d& other_bias) const {
-  const Eigen::Vector3d change = other_bias - bias;
+ImuDelta ImuDelta::corrected(const ImuBias& other_bias) const {
+  const ImuBias change = other_bias - bias;
   ImuDelta result = *this;
   result.bias = other_bias;
   result.theta_rad += theta_by_bias * change;
@@ -29,12 +29,11 @@ ImuDelta ImuDelta::corrected(const Eigen::Vector3d& other_bias) const {
   return result;
 }
 
-ImuPreintegrator::ImuPreintegrator(const ImuModel& model, const Eigen::Vector3d& bias)
-    : model_(model) {
+ImuPreintegrator::ImuPreintegrator(const ImuModel& model, const ImuBias& bias) : model_(model) {
   reset(bias);
 }
 
-void ImuPreintegrator::reset(const Eigen::Vector3d& bias) {
+void ImuPreintegrator::reset(const ImuBias& bias) {
   delta_ = ImuDelta{};
   delta_.bias = bias;
 }
@@ -59,7 +58,8 @@ void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
   CORRIDOR_EXPECT(duration_s > 0);
   ImuDelta& d = delta_;
   const double dt = duration_s;
-  const double rate = sample.gyro_z_radps - d.bias(0);
+  const double stretch = 1 + d.bias(3);
+  const double rate = stretch * (sample.gyro_z_radps - d.bias(0));
   const Eigen::Matrix2d R_base_imu = model_.T_base_imu.rotation();
   const Eigen::Vector2d force(sample.accel_x_mps2 - d.bias(1), sample.accel_y_mps2 - d.bias(2));
   const Eigen::Vector2d acceleration_base =
@@ -75,11 +75,11 @@ void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
   F.block<2, 1>(3, 0) = 0.5 * turned * dt * dt;
   F.block<2, 2>(3, 1) = Eigen::Matrix2d::Identity() * dt;
   Eigen::Matrix<double, 5, 3> G = Eigen::Matrix<double, 5, 3>::Zero();
-  G(0, 0) = dt;
+  G(0, 0) = stretch * dt;
   // The lever arm's centripetal part depends on the rate.
   const Eigen::Vector2d a_by_rate = 2 * rate * (R * model_.T_base_imu.translation_m());
-  G.block<2, 1>(1, 0) = a_by_rate * dt;
-  G.block<2, 1>(3, 0) = 0.5 * a_by_rate * dt * dt;
+  G.block<2, 1>(1, 0) = stretch * a_by_rate * dt;
+  G.block<2, 1>(3, 0) = 0.5 * stretch * a_by_rate * dt * dt;
   G.block<2, 2>(1, 1) = R * R_base_imu * dt;
   G.block<2, 2>(3, 1) = 0.5 * R * R_base_imu * dt * dt;
   const Eigen::Vector3d variance(model_.gyro_noise_radps * model_.gyro_noise_radps,
@@ -87,14 +87,13 @@ void ImuPreintegrator::integrate(const ImuSample& sample, double duration_s) {
                                  model_.accel_noise_mps2 * model_.accel_noise_mps2);
   d.covariance = F * d.covariance * F.transpose() + G * variance.asDiagonal() * G.transpose();
 
-  Eigen::RowVector3d theta_mid_by_bias = d.theta_by_bias;
-  theta_mid_by_bias(0) -= 0.5 * dt;
-  Eigen::Matrix<double, 2, 3> a_by_bias = turned * theta_mid_by_bias;
-  a_by_bias.rightCols<2>() -= R * R_base_imu;
-  a_by_bias.col(0) -= a_by_rate;
+  const Eigen::RowVector4d rate_by_bias(-stretch, 0, 0, sample.gyro_z_radps - d.bias(0));
+  const Eigen::RowVector4d theta_mid_by_bias = d.theta_by_bias + 0.5 * dt * rate_by_bias;
+  Eigen::Matrix<double, 2, 4> a_by_bias = turned * theta_mid_by_bias + a_by_rate * rate_by_bias;
+  a_by_bias.middleCols<2>(1) -= R * R_base_imu;
   d.position_by_bias += d.velocity_by_bias * dt + 0.5 * a_by_bias * dt * dt;
   d.velocity_by_bias += a_by_bias * dt;
-  d.theta_by_bias(0) -= dt;
+  d.theta_by_bias += dt * rate_by_bias;
 
   d.position_m += d.velocity_mps * dt + 0.5 * a * dt * dt;
   d.velocity_mps += a * dt;

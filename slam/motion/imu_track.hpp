@@ -12,7 +12,7 @@ namespace corridor::motion {
 
 class ImuTrack {
  public:
-  explicit ImuTrack(const ImuModel& model) : preintegrator_(model, Eigen::Vector3d::Zero()) {}
+  explicit ImuTrack(const ImuModel& model) : preintegrator_(model, ImuBias::Zero()) {}
 
   // A reading stands for the time since the one before it, and on from its stamp until the next; in
   // either direction for no longer than three of the intervals in which readings come, at most
@@ -21,7 +21,7 @@ class ImuTrack {
   // Integrates up to a moment. Before the first reading nothing is integrated.
   void advance_to(Timestamp stamp);
   // Starts a new delta where the last one ends, with these biases.
-  void reset(const Eigen::Vector3d& bias) { preintegrator_.reset(bias); }
+  void reset(const ImuBias& bias) { preintegrator_.reset(bias); }
 
   [[nodiscard]] bool has_reading() const { return last_.has_value(); }
   [[nodiscard]] const ImuDelta& delta() const { return preintegrator_.delta(); }

@@ -18,7 +18,7 @@ graph::Jacobian<F> numeric_jacobian(const F& factor, const graph::Values& values
   int column = 0;
   for (const graph::Key key : factor.keys()) {
     for (int d = 0; d < key.dimension(); ++d, ++column) {
-      Eigen::Vector3d delta = kNumericStep * Eigen::Vector3d::Unit(d);
+      Eigen::VectorXd delta = kNumericStep * Eigen::VectorXd::Unit(key.dimension(), d);
       graph::Values moved = values;
       moved.retract(key, delta.data());
       factor.residual(moved, plus);

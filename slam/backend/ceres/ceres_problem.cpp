@@ -22,24 +22,26 @@ namespace {
 using graph::Key;
 using graph::VariableKind;
 
-constexpr int kMaxDimension = 3;
+constexpr int kMaxDimension = 7;
 using Block = std::array<double, kMaxDimension>;
 
 void write(const graph::Values& values, Key key, Block& block) {
   switch (key.kind) {
     case VariableKind::kPose: {
       const Pose2& pose = values.pose(key.index);
-      block = {pose.x_m(), pose.y_m(), pose.theta_rad()};
+      block[0] = pose.x_m();
+      block[1] = pose.y_m();
+      block[2] = pose.theta_rad();
       return;
     }
     case VariableKind::kVelocity:
       Eigen::Vector2d::Map(block.data()) = values.velocity(key.index);
       return;
     case VariableKind::kBias:
-      Eigen::Vector3d::Map(block.data()) = values.bias(key.index);
+      motion::ImuBias::Map(block.data()) = values.bias(key.index);
       return;
-    case VariableKind::kWheelScale:
-      block[0] = values.wheel_scale(key.index);
+    case VariableKind::kWheelCalibration:
+      motion::WheelCalibration::Map(block.data()) = values.wheel_calibration(key.index);
       return;
   }
 }
@@ -51,9 +53,9 @@ void read(const Block& block, Key key, graph::Values& values) {
     case VariableKind::kVelocity:
       return values.set_velocity(key.index, {block[0], block[1]});
     case VariableKind::kBias:
-      return values.set_bias(key.index, {block[0], block[1], block[2]});
-    case VariableKind::kWheelScale:
-      return values.set_wheel_scale(key.index, block[0]);
+      return values.set_bias(key.index, motion::ImuBias::Map(block.data()));
+    case VariableKind::kWheelCalibration:
+      return values.set_wheel_calibration(key.index, motion::WheelCalibration::Map(block.data()));
   }
 }
 

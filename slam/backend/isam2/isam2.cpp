@@ -33,7 +33,7 @@ class Isam2 final : public BackEnd {
       : params_(params),
         squared_threshold_{square(params.relinearize_pose), square(params.relinearize_velocity),
                            square(params.relinearize_bias),
-                           square(params.relinearize_wheel_scale)} {}
+                           square(params.relinearize_wheel_calibration)} {}
 
   std::string_view name() const override { return "isam2"; }
 
@@ -170,7 +170,7 @@ class Isam2 final : public BackEnd {
       is_marked_.resize(to_index(variable) + 1, false);
       birth_of_.resize(to_index(variable) + 1);
     }
-    information_.add_variable(variable);
+    information_.add_variable(variable, key.dimension());
     birth_of_[to_index(variable)] = num_births_++;
   }
 
@@ -186,9 +186,9 @@ class Isam2 final : public BackEnd {
     tree_.add_factor(id, variables_);
     for (const int variable : variables_) {
       factors_of_[to_index(variable)].push_back(id);
-      VariableInformation& own = information_[variable];
-      if (own.state != VariableInformation::State::kKnown) continue;
-      add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], own.H);
+      if (information_.state(variable) != InformationTable::State::kKnown) continue;
+      add_information(graph_, id, linearization_, index_.keys()[to_index(variable)],
+                      information_.H(variable));
     }
     return id;
   }
@@ -309,8 +309,7 @@ class Isam2 final : public BackEnd {
       const BayesTree::Clique& clique = tree_.clique(number);
       report.num_eliminated += clique.num_frontals;
       for (const FactorId id : clique.factors) {
-        add_linearized(graph_, id, linearization_, variables_of_[id], tree_, front,
-                       information_.all());
+        add_linearized(graph_, id, linearization_, variables_of_[id], tree_, front, information_);
       }
       if (tree_.close()) continue;
       // What is no number has no good pivot either.
@@ -338,14 +337,14 @@ class Isam2 final : public BackEnd {
 
   // delta^T H_vv delta.
   double squared_step(int variable) {
-    VariableInformation& own = information_[variable];
-    if (own.state == VariableInformation::State::kUnknown) {
-      own = {};
+    if (information_.state(variable) == InformationTable::State::kUnknown) {
+      information_.reset(variable);
       for (const FactorId id : factors_of_[to_index(variable)]) {
-        add_information(graph_, id, linearization_, index_.keys()[to_index(variable)], own.H);
+        add_information(graph_, id, linearization_, index_.keys()[to_index(variable)],
+                        information_.H(variable));
       }
     }
-    return own.squared_length(tree_.delta(variable), tree_.dimension(variable));
+    return information_.squared_length(variable, tree_.delta(variable));
   }
 
   BackEndReport finished(BackEndReport& report) {

@@ -19,7 +19,7 @@ struct Isam2Params {
   double relinearize_pose = 1;
   double relinearize_velocity = 1;
   double relinearize_bias = 1;
-  double relinearize_wheel_scale = 1;
+  double relinearize_wheel_calibration = 1;
   double wildfire = 0.1;    // change that is passed on to a clique's children [standard deviations]
   double repeat_step = 30;  // step after which the update does another round [standard deviations]
   int max_rounds = 2;       // of one update
@@ -35,9 +35,9 @@ struct Isam2Params {
       p.relinearize_velocity);
     v(ParamInfo{"relinearize_bias", "1", "step in sigmas that relinearises a bias", 0},
       p.relinearize_bias);
-    v(ParamInfo{"relinearize_wheel_scale", "1", "step in sigmas that relinearises a wheel scale",
-                0},
-      p.relinearize_wheel_scale);
+    v(ParamInfo{"relinearize_wheel_calibration", "1",
+                "step in sigmas that relinearises a calibration", 0},
+      p.relinearize_wheel_calibration);
     v(ParamInfo{"wildfire", "1", "change in sigmas that back-substitution passes on", 0},
       p.wildfire);
     v(ParamInfo{"repeat_step", "1", "step in sigmas after which an update does another round", 0},

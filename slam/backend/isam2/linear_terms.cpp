@@ -8,7 +8,7 @@ namespace {
 
 // H += J_v^T J_v.
 template <class Columns>
-void add_square(const Columns& J_v, Eigen::Matrix3d& H) {
+void add_square(const Columns& J_v, InformationTable::Block H) {
   constexpr int kColumns = Columns::ColsAtCompileTime;
   H.topLeftCorner<kColumns, kColumns>(J_v.cols(), J_v.cols()).noalias() += J_v.transpose() * J_v;
 }
@@ -17,8 +17,7 @@ void add_square(const Columns& J_v, Eigen::Matrix3d& H) {
 
 void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
                     const graph::Values& values, std::span<const int> variables,
-                    const BayesTree& tree, Front& front,
-                    std::span<VariableInformation> information) {
+                    const BayesTree& tree, Front& front, InformationTable& information) {
   graph.visit(id, [&]<class F>(const F& factor, const graph::RobustKernel& kernel) {
     graph::Residual<F> r;
     graph::Jacobian<F> J;
@@ -27,8 +26,9 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
         factor, J,
         [&](std::size_t a, const auto& J_a) {
           front.add_gradient(tree.row_of(variables[a]), (J_a.transpose() * r).eval());
-          VariableInformation& own = information[linear::to_index(variables[a])];
-          if (own.state == VariableInformation::State::kBeingSummed) add_square(J_a, own.H);
+          if (information.state(variables[a]) == InformationTable::State::kBeingSummed) {
+            add_square(J_a, information.H(variables[a]));
+          }
         },
         [&](std::size_t a, std::size_t b, const auto& J_a, const auto& J_b) {
           front.add(tree.row_of(variables[a]), tree.row_of(variables[b]),
@@ -38,7 +38,7 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
 }
 
 void add_information(const graph::FactorGraph& graph, graph::FactorId id,
-                     const graph::Values& values, graph::Key variable, Eigen::Matrix3d& H) {
+                     const graph::Values& values, graph::Key variable, InformationTable::Block H) {
   graph.visit(id, [&]<class F>(const F& factor, const graph::RobustKernel& kernel) {
     graph::Residual<F> r;
     graph::Jacobian<F> J;

@@ -13,14 +13,13 @@ namespace corridor::backend {
 
 // Linearises a factor and adds J^T J, J^T r and r^T r to the open front of the tree, and J_v^T J_v
 // to the information of those of its variables for which it is being summed. variables: numbers of
-// the factor's variables in the tree. information: by number.
+// the factor's variables in the tree.
 void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
                     const graph::Values& values, std::span<const int> variables,
-                    const BayesTree& tree, Front& front,
-                    std::span<VariableInformation> information);
+                    const BayesTree& tree, Front& front, InformationTable& information);
 
 // Linearises a factor and adds its J_v^T J_v of one variable.
 void add_information(const graph::FactorGraph& graph, graph::FactorId id,
-                     const graph::Values& values, graph::Key variable, Eigen::Matrix3d& H);
+                     const graph::Values& values, graph::Key variable, InformationTable::Block H);
 
 }  // namespace corridor::backend

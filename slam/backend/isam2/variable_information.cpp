@@ -1,36 +1,43 @@
 #include "slam/backend/isam2/variable_information.hpp"
 
 namespace corridor::backend {
-namespace {
 
-using State = VariableInformation::State;
-
-}  // namespace
-
-double VariableInformation::squared_length(const double* step, int dimension) const {
-  const Eigen::Map<const Eigen::VectorXd> x(step, dimension);
-  return x.dot(H.topLeftCorner(dimension, dimension) * x);
-}
-
-void InformationTable::add_variable(int variable) {
+void InformationTable::add_variable(int variable, int dimension) {
   const auto number = static_cast<std::size_t>(variable);
   if (number >= all_.size()) all_.resize(number + 1);
-  all_[number] = {};
+  Entry& own = entry(variable);
+  if (own.dimension != dimension) {
+    own = {numbers_.size(), dimension, State::kKnown};
+    numbers_.resize(numbers_.size() + static_cast<std::size_t>(dimension * dimension));
+  }
+  reset(variable);
+}
+
+double InformationTable::squared_length(int variable, const double* step) {
+  const Block block = H(variable);
+  const Eigen::Map<const Eigen::VectorXd> x(step, block.rows());
+  return x.dot(block.lazyProduct(x));
 }
 
 void InformationTable::forget(int variable) {
-  State& state = (*this)[variable].state;
+  State& state = entry(variable).state;
   if (state == State::kKnown) state = State::kUnknown;
 }
 
+void InformationTable::reset(int variable) {
+  H(variable).setZero();
+  entry(variable).state = State::kKnown;
+}
+
 void InformationTable::begin_sum(int variable) {
-  (*this)[variable] = {Eigen::Matrix3d::Zero(), State::kBeingSummed};
+  reset(variable);
+  entry(variable).state = State::kBeingSummed;
   being_summed_.push_back(variable);
 }
 
 void InformationTable::end_sums(bool is_whole) {
   for (const int variable : being_summed_) {
-    (*this)[variable].state = is_whole ? State::kKnown : State::kUnknown;
+    entry(variable).state = is_whole ? State::kKnown : State::kUnknown;
   }
   being_summed_.clear();
 }

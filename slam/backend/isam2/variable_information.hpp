@@ -4,40 +4,49 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace corridor::backend {
 
-struct VariableInformation {
-  enum class State { kUnknown, kKnown, kBeingSummed };
-
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();  // in the top left block of the dimension
-  State state = State::kKnown;                  // of a variable without factors
-
-  // step^T H step.
-  [[nodiscard]] double squared_length(const double* step, int dimension) const;
-};
-
 // By the variable's number.
 class InformationTable {
  public:
+  enum class State { kUnknown, kKnown, kBeingSummed };
+  using Block = Eigen::Map<Eigen::MatrixXd>;
+
   // A number that is new or given again: no factor yet.
-  void add_variable(int variable);
-  [[nodiscard]] VariableInformation& operator[](int variable) {
-    return all_[static_cast<std::size_t>(variable)];
+  void add_variable(int variable, int dimension);
+  [[nodiscard]] State state(int variable) const { return entry(variable).state; }
+  // dimension x dimension; valid until the next add_variable().
+  [[nodiscard]] Block H(int variable) {
+    const Entry& own = entry(variable);
+    return {&numbers_[own.begin], own.dimension, own.dimension};
   }
-  [[nodiscard]] std::span<VariableInformation> all() { return all_; }
+  // step^T H step.
+  [[nodiscard]] double squared_length(int variable, const double* step);
 
   // A factor has gone, or weighs otherwise: what is known is of no use.
   void forget(int variable);
+  // To sum it anew right away: zero, and known.
+  void reset(int variable);
   // All its factors are about to be linearised: what they say replaces what is known.
   void begin_sum(int variable);
   // is_whole: all were.
   void end_sums(bool is_whole);
 
  private:
-  std::vector<VariableInformation> all_;
+  struct Entry {
+    std::size_t begin = 0;  // of its block among the numbers
+    int dimension = 0;
+    State state = State::kKnown;  // of a variable without factors
+  };
+  [[nodiscard]] Entry& entry(int variable) { return all_[static_cast<std::size_t>(variable)]; }
+  [[nodiscard]] const Entry& entry(int variable) const {
+    return all_[static_cast<std::size_t>(variable)];
+  }
+
+  std::vector<Entry> all_;
+  std::vector<double> numbers_;
   std::vector<int> being_summed_;
 };
 

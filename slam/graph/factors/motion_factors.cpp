@@ -46,10 +46,14 @@ ImuTerms imu_terms(const std::array<Key, 5>& keys, const motion::ImuDelta& delta
   return terms;
 }
 
-Eigen::Vector3d wheel_error(const Pose2& T_i_j, const Pose2& wheel_T_i_j, double scale) {
+Eigen::Vector3d wheel_error(const Pose2& T_i_j, const motion::WheelDelta& delta,
+                            const motion::WheelCalibration& calibration) {
+  const Pose2 T_base_axle = motion::axle_of(calibration);
+  const Pose2 moved = T_base_axle.inverse() * T_i_j * T_base_axle;
+  const Pose2 measured = delta.at(calibration);
   Eigen::Vector3d error;
-  error.head<2>() = T_i_j.translation_m() - (1 + scale) * wheel_T_i_j.translation_m();
-  error(2) = wrap_angle(T_i_j.theta_rad() - wheel_T_i_j.theta_rad());
+  error.head<2>() = moved.translation_m() - measured.translation_m();
+  error(2) = wrap_angle(T_i_j.theta_rad() - measured.theta_rad());
   return error;
 }
 
@@ -64,66 +68,59 @@ void ImuMotion::residual(const Values& values, FixedVector<5>& r) const {
   r = sqrt_information_ * imu_terms(keys_, delta_, values).error;
 }
 
-void ImuMotion::linearize(const Values& values, FixedVector<5>& r, FixedMatrix<5, 13>& J) const {
+void ImuMotion::linearize(const Values& values, FixedVector<5>& r, FixedMatrix<5, 14>& J) const {
   const ImuTerms t = imu_terms(keys_, delta_, values);
   const Eigen::Matrix2d R_i_j = t.R_i_transposed * values.oriented(keys_[3].index).rotation();
   J.setZero();
-  // Columns: pose i 0-2, velocity i 3-4, bias i 5-7, pose j 8-10, velocity j 11-12.
+  // Columns: pose i 0-2, velocity i 3-4, bias i 5-8, pose j 9-11, velocity j 12-13.
   J(0, 2) = -1;
   J.block<2, 1>(1, 2) = -perpendicular(t.velocity_change);
   J.block<2, 1>(3, 2) = -perpendicular(t.displacement);
   J.block<2, 2>(3, 0) = -Eigen::Matrix2d::Identity();
   J.block<2, 2>(1, 3) = -t.R_i_transposed;
   J.block<2, 2>(3, 3) = -t.R_i_transposed * delta_.duration_s;
-  J.block<1, 3>(0, 5) = -delta_.theta_by_bias;
-  J.block<2, 3>(1, 5) = -delta_.velocity_by_bias;
-  J.block<2, 3>(3, 5) = -delta_.position_by_bias;
-  J(0, 10) = 1;
-  J.block<2, 2>(3, 8) = R_i_j;
-  J.block<2, 2>(1, 11) = t.R_i_transposed;
+  J.block<1, 4>(0, 5) = -delta_.theta_by_bias;
+  J.block<2, 4>(1, 5) = -delta_.velocity_by_bias;
+  J.block<2, 4>(3, 5) = -delta_.position_by_bias;
+  J(0, 11) = 1;
+  J.block<2, 2>(3, 9) = R_i_j;
+  J.block<2, 2>(1, 12) = t.R_i_transposed;
   r = sqrt_information_ * t.error;
   J = sqrt_information_ * J;
 }
 
-WheelMotion::WheelMotion(Key pose_i, Key pose_j, Key scale, const Pose2& wheel_T_i_j,
+WheelMotion::WheelMotion(Key pose_i, Key pose_j, Key calibration, const motion::WheelDelta& delta,
                          const Eigen::Matrix3d& sqrt_information)
-    : keys_{pose_i, pose_j, scale},
-      wheel_T_i_j_(wheel_T_i_j),
-      sqrt_information_(sqrt_information) {}
+    : keys_{pose_i, pose_j, calibration}, delta_(delta), sqrt_information_(sqrt_information) {}
 
 void WheelMotion::residual(const Values& values, FixedVector<3>& r) const {
   const Pose2 T_i_j = values.pose(keys_[0].index).between(values.pose(keys_[1].index));
-  r = sqrt_information_ * wheel_error(T_i_j, wheel_T_i_j_, values.wheel_scale(keys_[2].index));
+  r = sqrt_information_ * wheel_error(T_i_j, delta_, values.wheel_calibration(keys_[2].index));
 }
 
-void WheelMotion::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 7>& J) const {
+void WheelMotion::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 13>& J) const {
   const Pose2 T_i_j = values.pose(keys_[0].index).between(values.pose(keys_[1].index));
+  const motion::WheelCalibration& calibration = values.wheel_calibration(keys_[2].index);
+  const Pose2 T_base_axle = motion::axle_of(calibration);
+  const Eigen::Matrix2d R_axle_base = T_base_axle.rotation().transpose();
+  const Eigen::Matrix2d R_i_j = T_i_j.rotation();
+  // The axle's middle, seen from base j and turned as base i.
+  const Eigen::Vector2d lever = R_i_j * T_base_axle.translation_m();
+  const Eigen::Vector2d moved =
+      R_axle_base * (T_i_j.translation_m() + lever - T_base_axle.translation_m());
   J.setZero();
-  // Columns: pose i 0-2, pose j 3-5, scale 6.
-  J.block<2, 2>(0, 0) = -Eigen::Matrix2d::Identity();
-  J.block<2, 1>(0, 2) = -perpendicular(T_i_j.translation_m());
+  // Columns: pose i 0-2, pose j 3-5, calibration 6-12.
+  J.block<2, 2>(0, 0) = -R_axle_base;
+  J.block<2, 1>(0, 2) = -R_axle_base * perpendicular(T_i_j.translation_m() + lever);
   J(2, 2) = -1;
-  J.block<2, 2>(0, 3) = T_i_j.rotation();
+  J.block<2, 2>(0, 3) = R_axle_base * R_i_j;
+  J.block<2, 1>(0, 5) = R_axle_base * perpendicular(lever);
   J(2, 5) = 1;
-  J.block<2, 1>(0, 6) = -wheel_T_i_j_.translation_m();
-  r = sqrt_information_ * wheel_error(T_i_j, wheel_T_i_j_, values.wheel_scale(keys_[2].index));
+  J.block<3, 4>(0, 6) = -delta_.by_intrinsics();
+  J.block<2, 2>(0, 6 + motion::kAxleX) = R_axle_base * (R_i_j - Eigen::Matrix2d::Identity());
+  J.block<2, 1>(0, 6 + motion::kAxleTheta) = -perpendicular(moved);
+  r = sqrt_information_ * wheel_error(T_i_j, delta_, calibration);
   J = sqrt_information_ * J;
-}
-
-BiasWalk::BiasWalk(std::uint32_t i, std::uint32_t j, const Eigen::Vector3d& sigma)
-    : keys_{bias_key(i), bias_key(j)}, inverse_sigma_(sigma.cwiseInverse()) {
-  CORRIDOR_EXPECT((sigma.array() > 0).all());
-}
-
-void BiasWalk::residual(const Values& values, FixedVector<3>& r) const {
-  r = inverse_sigma_.cwiseProduct(values.bias(keys_[1].index) - values.bias(keys_[0].index));
-}
-
-void BiasWalk::linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 6>& J) const {
-  residual(values, r);
-  J.setZero();
-  J.leftCols<3>().diagonal() = -inverse_sigma_;
-  J.rightCols<3>().diagonal() = inverse_sigma_;
 }
 
 }  // namespace corridor::graph

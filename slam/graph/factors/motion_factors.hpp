@@ -1,13 +1,16 @@
-// Factors of the moving robot: preintegrated IMU, wheel displacement with a scale, bias walk.
+// Factors of the moving robot: preintegrated IMU, preintegrated wheels with their calibration, and
+// the walk of what changes slowly.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <string_view>
 
+#include "slam/core/expect.hpp"
 #include "slam/core/pose2.hpp"
 #include "slam/graph/factor.hpp"
 #include "slam/motion/imu_preintegration.hpp"
+#include "slam/motion/wheel_preintegration.hpp"
 
 namespace corridor::graph {
 
@@ -27,7 +30,7 @@ class ImuMotion {
   ImuMotion(std::uint32_t i, std::uint32_t j, const motion::ImuDelta& delta);
 
   [[nodiscard]] const std::array<Key, 5>& keys() const { return keys_; }
-  void linearize(const Values& values, FixedVector<5>& r, FixedMatrix<5, 13>& J) const;
+  void linearize(const Values& values, FixedVector<5>& r, FixedMatrix<5, 14>& J) const;
   void residual(const Values& values, FixedVector<5>& r) const;
 
  private:
@@ -36,46 +39,64 @@ class ImuMotion {
   Eigen::Matrix<double, 5, 5> sqrt_information_;
 };
 
-// What the wheels say of the motion from i to j; keys (pose i, pose j, wheel scale).
-// e = ( R_i^T (t_j - t_i) - (1 + scale) d, wrap(theta_j - theta_i - dtheta) ), 3 rows, in base i.
-// A row of zeros in sqrt_information leaves its component out: the heading where a gyro is better.
+// What the wheels say of the motion from i to j; keys (pose i, pose j, wheel calibration c).
+// e = ( t(A^-1 T_i_j A) - d(c), wrap(theta_j - theta_i - dtheta(c)) ), 3 rows, in the axle's frame
+// at i; A = T_base_axle of the calibration, d and dtheta those of the preintegrated delta at it. A
+// row of zeros in sqrt_information leaves its component out: the heading where a gyro is better.
 class WheelMotion {
  public:
   static constexpr std::string_view kName = "wheel_motion";
   static constexpr int kRows = 3;
   static constexpr std::array kKinds = {VariableKind::kPose, VariableKind::kPose,
-                                        VariableKind::kWheelScale};
+                                        VariableKind::kWheelCalibration};
 
-  WheelMotion(Key pose_i, Key pose_j, Key scale, const Pose2& wheel_T_i_j,
+  WheelMotion(Key pose_i, Key pose_j, Key calibration, const motion::WheelDelta& delta,
               const Eigen::Matrix3d& sqrt_information);
 
   [[nodiscard]] const std::array<Key, 3>& keys() const { return keys_; }
-  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 7>& J) const;
+  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 13>& J) const;
   void residual(const Values& values, FixedVector<3>& r) const;
 
  private:
   std::array<Key, 3> keys_;
-  Pose2 wheel_T_i_j_;
+  motion::WheelDelta delta_;
   Eigen::Matrix3d sqrt_information_;
 };
 
-// e = (b_j - b_i) / sigma, component by component; keys (bias i, bias j).
-class BiasWalk {
+// A vector that changes slowly: e = (x_j - x_i) / sigma, component by component.
+template <VariableKind kKind>
+class VectorWalk {
  public:
-  static constexpr std::string_view kName = "bias_walk";
-  static constexpr int kRows = 3;
-  static constexpr std::array kKinds = {VariableKind::kBias, VariableKind::kBias};
+  static constexpr std::string_view kName =
+      kKind == VariableKind::kBias ? "bias_walk" : "calibration_walk";
+  static constexpr int kRows = dimension_of(kKind);
+  static constexpr std::array kKinds = {kKind, kKind};
+  using Vector = FixedVector<kRows>;
 
-  // sigma: standard deviation of the change, (rad/s, m/s^2, m/s^2), each > 0.
-  BiasWalk(std::uint32_t i, std::uint32_t j, const Eigen::Vector3d& sigma);
+  // sigma: standard deviation of the change, in the unit of the variable, each > 0.
+  VectorWalk(std::uint32_t i, std::uint32_t j, const Vector& sigma)
+      : keys_{Key{kKind, i}, Key{kKind, j}}, inverse_sigma_(sigma.cwiseInverse()) {
+    CORRIDOR_EXPECT((sigma.array() > 0).all());
+  }
 
   [[nodiscard]] const std::array<Key, 2>& keys() const { return keys_; }
-  void linearize(const Values& values, FixedVector<3>& r, FixedMatrix<3, 6>& J) const;
-  void residual(const Values& values, FixedVector<3>& r) const;
+  void linearize(const Values& values, Vector& r, FixedMatrix<kRows, 2 * kRows>& J) const {
+    residual(values, r);
+    J.setZero();
+    J.template leftCols<kRows>().diagonal() = -inverse_sigma_;
+    J.template rightCols<kRows>().diagonal() = inverse_sigma_;
+  }
+  void residual(const Values& values, Vector& r) const {
+    r = inverse_sigma_.cwiseProduct(values.vector<kKind>(keys_[1].index) -
+                                    values.vector<kKind>(keys_[0].index));
+  }
 
  private:
   std::array<Key, 2> keys_;
-  Eigen::Vector3d inverse_sigma_;
+  Vector inverse_sigma_;
 };
+
+using BiasWalk = VectorWalk<VariableKind::kBias>;
+using WheelCalibrationWalk = VectorWalk<VariableKind::kWheelCalibration>;
 
 }  // namespace corridor::graph

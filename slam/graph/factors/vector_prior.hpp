@@ -40,6 +40,6 @@ class VectorPrior {
 
 using VelocityPrior = VectorPrior<VariableKind::kVelocity>;
 using BiasPrior = VectorPrior<VariableKind::kBias>;
-using WheelScalePrior = VectorPrior<VariableKind::kWheelScale>;
+using WheelCalibrationPrior = VectorPrior<VariableKind::kWheelCalibration>;
 
 }  // namespace corridor::graph

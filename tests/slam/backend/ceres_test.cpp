@@ -27,11 +27,11 @@ constexpr double kNumericTolerance = 1e-6;
 
 // Adds `step` to one entry of the variable's block.
 void add_to_block(Values& values, Key key, int entry, double step) {
-  const Eigen::Vector3d delta = step * Eigen::Vector3d::Unit(entry);
+  const Eigen::VectorXd delta = step * Eigen::VectorXd::Unit(key.dimension(), entry);
   if (key.kind == graph::VariableKind::kPose) {
     const Pose2 pose = values.pose(key.index);
     values.set_pose(key.index,
-                    {pose.x_m() + delta.x(), pose.y_m() + delta.y(), pose.theta_rad() + delta.z()});
+                    {pose.x_m() + delta(0), pose.y_m() + delta(1), pose.theta_rad() + delta(2)});
   } else {
     values.retract(key, delta.data());
   }
@@ -97,7 +97,7 @@ TEST(Ceres, MarginalCovariancesAreBlocksOfTheDenseInverse) {
           Eigen::MatrixXd(equations.hessian().scalars()).selfadjointView<Eigen::Lower>())
           .inverse();
   for (const Key key : {pose_key(0), pose_key(7), graph::velocity_key(7), graph::bias_key(14),
-                        graph::wheel_scale_key(0)}) {
+                        graph::wheel_calibration_key(0)}) {
     const auto covariance = solver->marginal_covariance(key);
     ASSERT_TRUE(covariance.has_value()) << covariance.error().to_line();
     const int row = equations.first_row(key);
@@ -157,9 +157,9 @@ TEST(Ceres, APartWithoutPriorIsNamedAndStaysAsItWas) {
 TEST(Ceres, AVariableOfNoFactorIsNamed) {
   const auto solver = make_ceres({});
   Values values = poses({{}});
-  values.set_wheel_scale(0, 0.1);
+  values.set_wheel_calibration(0, motion::WheelCalibration::Zero());
   EXPECT_EQ(solver->update({prior(0, {1, 1, 1})}, values, {}).undetermined,
-            graph::wheel_scale_key(0));
+            graph::wheel_calibration_key(0));
 }
 
 TEST(Ceres, WhatOnlyTheNumbersLeaveOpenTheCovarianceRefusesWithoutAWord) {

@@ -198,7 +198,7 @@ TEST(FixedLag, InertialStatesLeaveWithTheirPosesAndTheWheelScaleStays) {
     num_dropped += report.num_dropped_factors;
   }
   EXPECT_GT(num_dropped, 0);
-  EXPECT_TRUE(solver->marginal_covariance(graph::wheel_scale_key(0)).has_value());
+  EXPECT_TRUE(solver->marginal_covariance(graph::wheel_calibration_key(0)).has_value());
   EXPECT_FALSE(solver->marginal_covariance(graph::bias_key(2)).has_value());
   EXPECT_EQ(solver->estimate().size(), drive.initial.size());
 }

@@ -73,7 +73,7 @@ class LinearChain {
   void grow(std::vector<NewFactor>& factors, graph::Values& values, std::uint32_t oldest = 0) {
     const std::uint32_t i = num_++;
     values.set_bias(i, random());
-    factors.push_back(graph::BiasPrior(i, random(), Eigen::Vector3d::Constant(2)));
+    factors.push_back(graph::BiasPrior(i, random(), motion::ImuBias::Constant(2)));
     if (i > 0) factors.push_back(tie(i - 1, i));
     if (i > oldest + 2) {
       factors.push_back(tie(static_cast<std::uint32_t>(rng_.uniform(oldest, i - 1)), i));
@@ -82,10 +82,8 @@ class LinearChain {
   Rng& rng() { return rng_; }
 
  private:
-  Eigen::Vector3d random() { return {rng_.normal(), rng_.normal(), rng_.normal()}; }
-  graph::BiasWalk tie(std::uint32_t i, std::uint32_t j) {
-    return {i, j, Eigen::Vector3d(0.5, 1, 2)};
-  }
+  motion::ImuBias random() { return {rng_.normal(), rng_.normal(), rng_.normal(), rng_.normal()}; }
+  graph::BiasWalk tie(std::uint32_t i, std::uint32_t j) { return {i, j, {0.5, 1, 2, 1}}; }
   Rng rng_;
   std::uint32_t num_ = 0;
 };

@@ -59,7 +59,7 @@ inline RandomProblem random_walk(std::uint64_t seed, const graph::RobustKernel& 
 }
 
 inline motion::ImuDelta random_delta(Rng& rng) {
-  motion::ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d(0.01, 0.02, -0.03));
+  motion::ImuPreintegrator integrator(ImuModel{}, motion::ImuBias(0.01, 0.02, -0.03, 0.02));
   for (int i = 0; i < 50; ++i) {
     integrator.integrate({{}, rng.normal(0.3, 0.2), rng.normal(0, 0.5), rng.normal(0, 0.5)}, 0.01);
   }
@@ -81,7 +81,7 @@ inline Frame next_frame(const Frame& frame, const motion::ImuDelta& delta) {
           frame.velocity_mps + R * delta.velocity_mps};
 }
 
-inline const Eigen::Vector3d kBiasSigma(0.01, 0.05, 0.05);
+inline const motion::ImuBias kBiasSigma(0.01, 0.05, 0.05, 0.01);
 inline constexpr double kFrameSigma = 0.02;
 
 // What IMU and wheels say between frame j and the next.
@@ -89,9 +89,11 @@ inline void add_motion(Rng& rng, std::uint32_t j, const motion::ImuDelta& delta,
                        const Pose2& by_wheels, RandomProblem& problem) {
   problem.factors.emplace_back(graph::ImuMotion(j, j + 1, delta));
   problem.factors.emplace_back(graph::BiasWalk(j, j + 1, kBiasSigma));
-  problem.factors.emplace_back(
-      graph::WheelMotion(graph::pose_key(j), graph::pose_key(j + 1), graph::wheel_scale_key(0),
-                         noisy(rng, by_wheels, kFrameSigma), pose_weight(kFrameSigma)));
+  motion::WheelDelta measured;
+  measured.append(noisy(rng, by_wheels, kFrameSigma));
+  problem.factors.emplace_back(graph::WheelMotion(graph::pose_key(j), graph::pose_key(j + 1),
+                                                  graph::wheel_calibration_key(0), measured,
+                                                  pose_weight(kFrameSigma)));
 }
 
 inline void add_priors(const Frame& first, RandomProblem& problem) {
@@ -99,13 +101,13 @@ inline void add_priors(const Frame& first, RandomProblem& problem) {
   problem.factors.emplace_back(
       graph::PosePrior(graph::pose_key(0), first.pose, pose_weight(kFrameSigma)));
   problem.factors.emplace_back(graph::VelocityPrior(0, first.velocity_mps, velocity_sigma));
-  problem.factors.emplace_back(graph::BiasPrior(0, Eigen::Vector3d::Zero(), kBiasSigma));
-  problem.factors.emplace_back(
-      graph::WheelScalePrior(0, graph::FixedVector<1>(0.0), graph::FixedVector<1>(0.05)));
+  problem.factors.emplace_back(graph::BiasPrior(0, motion::ImuBias::Zero(), kBiasSigma));
+  problem.factors.emplace_back(graph::WheelCalibrationPrior(
+      0, motion::WheelCalibration::Zero(), motion::WheelCalibration::Constant(0.05)));
 }
 
-// A drive of 15 key frames with poses, velocities, biases and one wheel scale, and every type of
-// factor; what joins distant poses is under `kernel`.
+// A drive of 15 key frames with poses, velocities, biases and one calibration of the wheels, and
+// every type of factor; what joins distant poses is under `kernel`.
 inline RandomProblem random_drive(std::uint64_t seed, const graph::RobustKernel& kernel = {}) {
   constexpr std::uint32_t kNumFrames = 15;
   Rng rng(seed);
@@ -128,11 +130,11 @@ inline RandomProblem random_drive(std::uint64_t seed, const graph::RobustKernel&
                                                      measured, pose_weight(kFrameSigma)),
                                  kernel);
   }
-  problem.initial.set_wheel_scale(0, 0);
+  problem.initial.set_wheel_calibration(0, motion::WheelCalibration::Zero());
   for (std::uint32_t j = 0; j < kNumFrames; ++j) {
     problem.initial.set_pose(j, noisy(rng, truth[j].pose, kFrameSigma));
     problem.initial.set_velocity(j, truth[j].velocity_mps);
-    problem.initial.set_bias(j, Eigen::Vector3d::Zero());
+    problem.initial.set_bias(j, motion::ImuBias::Zero());
   }
   return problem;
 }
@@ -154,8 +156,8 @@ inline double largest_difference(const graph::Values& a, const graph::Values& b)
       case graph::VariableKind::kBias:
         see(a.bias(key.index) - b.bias(key.index));
         break;
-      case graph::VariableKind::kWheelScale:
-        largest = std::max(largest, std::abs(a.wheel_scale(key.index) - b.wheel_scale(key.index)));
+      case graph::VariableKind::kWheelCalibration:
+        see(a.wheel_calibration(key.index) - b.wheel_calibration(key.index));
         break;
     }
   }

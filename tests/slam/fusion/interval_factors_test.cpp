@@ -3,21 +3,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include "slam/fusion/calibration.hpp"
 
 namespace corridor::fusion {
 namespace {
 
 motion::ImuDelta still_imu(double duration_s) {
-  motion::ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d::Zero());
+  motion::ImuPreintegrator integrator(ImuModel{}, motion::ImuBias::Zero());
   for (double t = 0; t < duration_s - 1e-9; t += 0.005) integrator.integrate({}, 0.005);
   return integrator.delta();
+}
+
+motion::WheelDelta by_wheels(const Pose2& motion) {
+  motion::WheelDelta delta;
+  delta.append(motion);
+  return delta;
 }
 
 // A straight step of 0.2 m in 0.4 s that every sensor agrees on.
 Interval healthy() {
   Interval interval;
   interval.j = 1;
-  interval.wheel_T_i_j = Pose2(0.2, 0, 0);
+  interval.wheels = by_wheels(Pose2(0.2, 0, 0));
   interval.imu = still_imu(0.4);
   interval.velocity_base_i_mps = {0.5, 0};
   matching::ObservableMatch match;
@@ -68,7 +75,7 @@ TEST_P(BothMethods, UseEverySensorWhenAllAreHealthy) {
 
 TEST_P(BothMethods, LeaveSlippingWheelsOut) {
   Interval interval = healthy();
-  interval.wheel_T_i_j = Pose2(0.5, 0, 0);
+  interval.wheels = by_wheels(Pose2(0.5, 0, 0));
   const Chosen chosen = choose(interval, params_);
   EXPECT_TRUE(chosen.verdict.is_slip);
   EXPECT_EQ(chosen.count("wheel_motion"), 0);
@@ -87,15 +94,15 @@ TEST(FusionPaper, LeavesTheLidarOutWhenTheViewDoesNotChange) {
 TEST(FusionPaper, AStandingRobotsUnchangedViewIsNoDegradation) {
   Interval interval = healthy();
   interval.range_difference_m = 0.017;
-  interval.wheel_T_i_j = Pose2();
+  interval.wheels = by_wheels(Pose2());
   interval.velocity_base_i_mps.setZero();
   EXPECT_FALSE(choose(interval, fusion_paper_params()).verdict.is_degenerate);
 }
 
 TEST(FusionPaper, KeepsTheLeastBadSensorWhenBothAreDegraded) {
   Interval interval = healthy();
-  interval.range_difference_m = 0.02;       // 1.4 times beyond its threshold
-  interval.wheel_T_i_j = Pose2(1.0, 0, 0);  // far beyond its own
+  interval.range_difference_m = 0.02;             // 1.4 times beyond its threshold
+  interval.wheels = by_wheels(Pose2(1.0, 0, 0));  // far beyond its own
   const Chosen chosen = choose(interval, fusion_paper_params());
   EXPECT_TRUE(chosen.verdict.is_slip);
   EXPECT_TRUE(chosen.verdict.is_degenerate);
@@ -140,7 +147,7 @@ TEST(Fusion, WithoutImuAndLidarTheWheelsStay) {
 TEST(Fusion, AStateThatNothingMeasuredIsHeldWhereItWasTracked) {
   Interval interval = healthy();
   interval.imu.reset();
-  interval.wheel_T_i_j.reset();
+  interval.wheels.reset();
   interval.match->num_observable = 2;
   interval.match->information = Eigen::Vector3d(0, 1e4, 1e4).asDiagonal();
   EXPECT_EQ(choose(interval, {}).count("relative_pose"), 2);
@@ -155,7 +162,7 @@ TEST(Fusion, AfterAGapOfTheImuTheWheelsHeadingCounts) {
   graph::Values values;
   values.set_pose(0, {});
   values.set_pose(1, {0.2, 0, 0.5});
-  values.set_wheel_scale(0, 0);
+  values.set_wheel_calibration(0, motion::WheelCalibration::Zero());
   const Chosen chosen = choose(interval, {});
   for (const graph::NewFactor& chosen_factor : chosen.factors) {
     if (name_of(chosen_factor.factor) == "wheel_motion") {
@@ -165,9 +172,9 @@ TEST(Fusion, AfterAGapOfTheImuTheWheelsHeadingCounts) {
   EXPECT_EQ(chosen.count("wheel_motion"), 1);
 }
 
-TEST(BiasWalkSigma, GrowsWithTheRootOfTime) {
+TEST(ImuBiasWalk, GrowsWithTheRootOfTime) {
   const ImuModel imu;
-  EXPECT_NEAR(bias_walk_sigma(imu, 4).x(), 2 * bias_walk_sigma(imu, 1).x(), 1e-15);
+  EXPECT_NEAR(imu_bias_walk(imu, 4).x(), 2 * imu_bias_walk(imu, 1).x(), 1e-15);
 }
 
 TEST(FusionParams, DefaultsAreValidAndEveryNameIsUnique) {

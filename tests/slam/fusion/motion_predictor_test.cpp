@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace corridor::fusion {
 namespace {
 
@@ -22,7 +24,7 @@ class MotionPredictorTest : public ::testing::Test {
   }
   void start() {
     (void)predictor_.predict(at(0), {});
-    predictor_.reset_interval(at(0), Eigen::Vector3d::Zero());
+    predictor_.reset_interval(at(0), motion::ImuBias::Zero(), calibration_);
   }
   // Straight on at 0.5 m/s by the wheels, turning at 0.3 rad/s by the gyro, from 0 to 0.2 s.
   void drive_with_turning_gyro() {
@@ -36,13 +38,13 @@ class MotionPredictorTest : public ::testing::Test {
   RobotModel robot_;
   FusionParams params_;
   MotionPredictor predictor_{robot_, params_};
+  motion::WheelCalibration calibration_ = motion::WheelCalibration::Zero();
 };
 
 TEST_F(MotionPredictorTest, TakesTheTranslationFromTheWheelsAndTheTurnFromTheGyro) {
+  calibration_(motion::kScale) = 0.1;
   drive_with_turning_gyro();
-  MotionState state;
-  state.wheel_scale = 0.1;
-  const Prediction prediction = predictor_.predict(at(0.2), state);
+  const Prediction prediction = predictor_.predict(at(0.2), {});
   EXPECT_TRUE(prediction.has_wheels);
   EXPECT_TRUE(prediction.is_turn_by_gyro);
   EXPECT_NEAR(prediction.T_last_now.x_m(), 1.1 * 0.1, 1e-9);
@@ -61,6 +63,31 @@ TEST_F(MotionPredictorTest, WheelsAndImuEachTellTheMotionAlone) {
   EXPECT_NEAR(prediction.by_imu->T_last_now.x_m(), 0.2, 1e-9);
   EXPECT_NEAR(prediction.by_imu->T_last_now.theta_rad(), 0.06, 1e-9);
   EXPECT_NEAR(prediction.by_imu->covariance(0, 0), 0.04 * 0.2 * 0.2, 1e-9);
+}
+
+TEST_F(MotionPredictorTest, TheWheelsIntervalBridgesAScanAtWhichTheyWereSilent) {
+  add_wheels(-0.1, 0, 0.5);
+  start();
+  add_wheels(0.05, 0.2, 0.5);
+  (void)predictor_.predict(at(0.2), {});
+  EXPECT_NEAR(predictor_.wheel_interval()->raw_T_i_j().x_m(), 0.1, 1e-9);
+  (void)predictor_.predict(at(0.6), {});
+  EXPECT_FALSE(predictor_.wheel_interval().has_value());
+  add_wheels(0.65, 0.8, 0.5);
+  EXPECT_FALSE(predictor_.predict(at(0.8), {}).has_wheels);
+  EXPECT_NEAR(predictor_.wheel_interval()->raw_T_i_j().x_m(), 0.4, 1e-9);
+}
+
+TEST_F(MotionPredictorTest, AnAxleBehindTheLidarTurnsTheLidarAlongACircle) {
+  calibration_(motion::kAxleX) = -0.1;
+  start();
+  predictor_.add(WheelSample{at(0), Pose2(), std::nullopt});
+  predictor_.reset_interval(at(0), motion::ImuBias::Zero(), calibration_);
+  (void)predictor_.predict(at(0), {});
+  predictor_.add(WheelSample{at(0.2), Pose2(0, 0, 0.5), std::nullopt});
+  const Pose2 moved = predictor_.predict(at(0.2), {}).T_last_now;
+  EXPECT_NEAR(moved.x_m(), 0.1 * (std::cos(0.5) - 1), 1e-9);
+  EXPECT_NEAR(moved.y_m(), 0.1 * std::sin(0.5), 1e-9);
 }
 
 TEST_F(MotionPredictorTest, WithoutAVelocityTheImuTellsNoMotion) {
@@ -113,7 +140,7 @@ TEST_F(MotionPredictorTest, DoesNotUseTheImuInTheIntervalInWhichItStarts) {
   EXPECT_FALSE(predictor_.has_imu());
   EXPECT_FALSE(predictor_.imu_interval().has_value());
   EXPECT_FALSE(predictor_.predict(at(0.2), {}).is_turn_by_gyro);
-  predictor_.reset_interval(at(0.2), Eigen::Vector3d::Zero());
+  predictor_.reset_interval(at(0.2), motion::ImuBias::Zero(), calibration_);
   EXPECT_TRUE(predictor_.has_imu());
   add_imu(0.21, 0.4, 1.0, 0);
   EXPECT_NEAR(predictor_.predict(at(0.4), {}).T_last_now.theta_rad(), 0.2, 1e-9);

@@ -9,7 +9,7 @@ namespace corridor::fusion {
 namespace {
 
 motion::ImuDelta imu_at_constant_velocity(double duration_s) {
-  motion::ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d::Zero());
+  motion::ImuPreintegrator integrator(ImuModel{}, motion::ImuBias::Zero());
   for (double t = 0; t < duration_s - 1e-9; t += 0.005) integrator.integrate({}, 0.005);
   return integrator.delta();
 }

@@ -16,7 +16,7 @@ VelocityPrior velocity_prior(std::uint32_t index, double vx_mps) {
 }
 
 BiasPrior bias_prior(std::uint32_t index, double rate_radps) {
-  return {index, Eigen::Vector3d(rate_radps, 0, 0), Eigen::Vector3d::Ones()};
+  return {index, {rate_radps, 0, 0, 0}, motion::ImuBias::Ones()};
 }
 
 TEST(FactorGraph, RemovedFactorsCountNoMoreAndNumbersAreNotReused) {
@@ -40,7 +40,7 @@ RC_GTEST_PROP(FactorGraph, NumbersNameTheSameFactorAfterAnyAdditionsAndRemovals,
   FactorGraph graph;
   Values values;
   values.set_velocity(0, {0, 0});
-  values.set_bias(0, Eigen::Vector3d::Zero());
+  values.set_bias(0, motion::ImuBias::Zero());
   std::map<FactorId, std::string_view> expected;
   for (const std::uint8_t step : steps) {
     if (step % 3 == 0 && !expected.empty()) {

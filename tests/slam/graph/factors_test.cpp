@@ -26,11 +26,25 @@ Eigen::Matrix3d random_information(Rng& rng) {
 }
 
 motion::ImuDelta random_delta(Rng& rng) {
-  motion::ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d(0.01, 0.02, -0.03));
+  motion::ImuPreintegrator integrator(ImuModel{}, motion::ImuBias(0.01, 0.02, -0.03, 0.02));
   for (int i = 0; i < 50; ++i) {
     integrator.integrate({{}, rng.normal(0.2, 0.5), rng.normal(0, 1), rng.normal(0, 1)}, 0.01);
   }
   return integrator.delta();
+}
+
+template <int kSize>
+FixedVector<kSize> random_vector(Rng& rng) {
+  FixedVector<kSize> v;
+  for (double& entry : v) entry = rng.normal();
+  return v;
+}
+
+motion::WheelDelta random_wheel_delta(Rng& rng) {
+  motion::WheelDelta delta(0.1 * random_vector<7>(rng));
+  for (int i = 0; i < 5; ++i) delta.append(Pose2(rng.normal(0, 0.3), 0, rng.normal(0, 0.3)));
+  delta.set_twists(random_vector<3>(rng), random_vector<3>(rng));
+  return delta;
 }
 
 // Two key frames with everything they may carry.
@@ -39,18 +53,18 @@ Values random_values(Rng& rng) {
   for (std::uint32_t i = 0; i < 2; ++i) {
     values.set_pose(i, random_pose(rng));
     values.set_velocity(i, {rng.normal(), rng.normal()});
-    values.set_bias(i, {0.1 * rng.normal(), 0.1 * rng.normal(), 0.1 * rng.normal()});
+    values.set_bias(i, 0.1 * random_vector<4>(rng));
+    values.set_wheel_calibration(i, 0.1 * random_vector<7>(rng));
   }
-  values.set_wheel_scale(0, 0.05 * rng.normal());
   return values;
 }
 
 GaussianPrior random_gaussian_prior(Rng& rng) {
-  Eigen::MatrixXd U(4, 6);
+  Eigen::MatrixXd U(4, 12);
   for (double& entry : U.reshaped()) entry = rng.normal();
   Eigen::VectorXd offset(4);
   for (double& entry : offset) entry = rng.normal();
-  return {{pose_key(0), velocity_key(1), wheel_scale_key(0)}, random_values(rng), U, offset};
+  return {{pose_key(0), velocity_key(1), wheel_calibration_key(0)}, random_values(rng), U, offset};
 }
 
 std::vector<AnyFactor> one_of_each(Rng& rng) {
@@ -61,12 +75,14 @@ std::vector<AnyFactor> one_of_each(Rng& rng) {
   return {PosePrior(pose_key(0), random_pose(rng), root),
           relative(RelativePoseError::kLogarithm),
           relative(RelativePoseError::kComponents),
-          WheelMotion(pose_key(0), pose_key(1), wheel_scale_key(0), random_pose(rng), root),
+          WheelMotion(pose_key(0), pose_key(1), wheel_calibration_key(0), random_wheel_delta(rng),
+                      root),
           ImuMotion(0, 1, random_delta(rng)),
-          BiasWalk(0, 1, Eigen::Vector3d(0.1, 0.2, 0.3)),
+          BiasWalk(0, 1, {0.1, 0.2, 0.3, 0.4}),
+          WheelCalibrationWalk(0, 1, FixedVector<7>::Constant(0.3)),
           VelocityPrior(0, Eigen::Vector2d(1, 2), Eigen::Vector2d(0.5, 0.25)),
-          BiasPrior(1, Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(0.5, 0.25, 1)),
-          WheelScalePrior(0, WheelScalePrior::Vector(0.0), WheelScalePrior::Vector(0.02)),
+          BiasPrior(1, {0, 1, 2, 3}, {0.5, 0.25, 1, 2}),
+          WheelCalibrationPrior(0, random_vector<7>(rng), FixedVector<7>::Constant(0.02)),
           random_gaussian_prior(rng)};
 }
 
@@ -143,23 +159,23 @@ RC_GTEST_PROP(SquareRootInformation, SquaresToTheInformation, (std::uint64_t see
 
 RC_GTEST_PROP(GaussianPrior, IsTheQuadraticFormThatItIsMadeFrom, (std::uint64_t seed)) {
   Rng rng(seed);
-  Eigen::MatrixXd half(6, 6);
+  Eigen::MatrixXd half(8, 8);
   for (double& entry : half.reshaped()) entry = rng.normal();
-  half.row(5) = half.row(4);  // rank 5
+  half.row(7) = half.row(6);  // rank 7
   const Eigen::MatrixXd H = half.transpose() * half;
-  Eigen::VectorXd g = H * Eigen::VectorXd::LinSpaced(6, -1, 1);
+  Eigen::VectorXd g = H * Eigen::VectorXd::LinSpaced(8, -1, 1);
   const Values origin = random_values(rng);
   const GaussianPrior factor =
       GaussianPrior::from_information({bias_key(0), bias_key(1)}, origin, H, g);
   const auto chi2_at = [&](const Eigen::VectorXd& delta) {
     Values moved = origin;
     moved.retract(bias_key(0), delta.data());
-    moved.retract(bias_key(1), delta.data() + 3);
+    moved.retract(bias_key(1), delta.data() + 4);
     return chi2_of(factor, moved);
   };
-  const Eigen::VectorXd delta = Eigen::VectorXd::LinSpaced(6, 2, 0.5);
+  const Eigen::VectorXd delta = Eigen::VectorXd::LinSpaced(8, 2, 0.5);
   const double expected = delta.dot(H * delta) + 2 * g.dot(delta);
-  RC_ASSERT(std::abs(chi2_at(delta) - chi2_at(Eigen::VectorXd::Zero(6)) - expected) <
+  RC_ASSERT(std::abs(chi2_at(delta) - chi2_at(Eigen::VectorXd::Zero(8)) - expected) <
             1e-8 * (1 + std::abs(expected)));
 }
 
@@ -198,8 +214,27 @@ TEST(WheelMotion, ScaleStretchesTheWheelsPath) {
   Values values;
   values.set_pose(0, {});
   values.set_pose(1, {1.02, 0, 0});
-  values.set_wheel_scale(0, 0.02);
-  const WheelMotion factor(pose_key(0), pose_key(1), wheel_scale_key(0), {1, 0, 0},
+  motion::WheelCalibration calibration = motion::WheelCalibration::Zero();
+  calibration(motion::kScale) = 0.02;
+  values.set_wheel_calibration(0, calibration);
+  motion::WheelDelta delta;
+  delta.append(Pose2(1, 0, 0));
+  const WheelMotion factor(pose_key(0), pose_key(1), wheel_calibration_key(0), delta,
+                           Eigen::Matrix3d::Identity());
+  EXPECT_NEAR(chi2_of(factor, values), 0, 1e-24);
+}
+
+// A base that turns on the spot moves an axle that lies before it.
+TEST(WheelMotion, AnAxleBesideTheBaseMovesAlongACircle) {
+  Values values;
+  values.set_pose(0, {});
+  values.set_pose(1, {0, 0, 0.5});
+  motion::WheelCalibration calibration = motion::WheelCalibration::Zero();
+  calibration(motion::kAxleX) = 0.2;
+  values.set_wheel_calibration(0, calibration);
+  motion::WheelDelta delta;
+  delta.append(Pose2(0.2 * std::cos(0.5) - 0.2, 0.2 * std::sin(0.5), 0.5));
+  const WheelMotion factor(pose_key(0), pose_key(1), wheel_calibration_key(0), delta,
                            Eigen::Matrix3d::Identity());
   EXPECT_NEAR(chi2_of(factor, values), 0, 1e-24);
 }
@@ -207,7 +242,7 @@ TEST(WheelMotion, ScaleStretchesTheWheelsPath) {
 TEST(ImuMotion, OneReadingOfAnIdealSensorIsAValidMeasurement) {
   ImuModel ideal;
   ideal.gyro_noise_radps = ideal.accel_noise_mps2 = 0;
-  motion::ImuPreintegrator integrator(ideal, Eigen::Vector3d::Zero());
+  motion::ImuPreintegrator integrator(ideal, motion::ImuBias::Zero());
   integrator.integrate({{}, 0.1, 0.2, 0.3}, 0.1);
   const ImuMotion factor(0, 1, integrator.delta());
   Rng rng(1);

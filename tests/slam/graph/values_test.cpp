@@ -11,13 +11,18 @@
 namespace corridor::graph {
 namespace {
 
+motion::WheelCalibration calibration(double value) {
+  return motion::WheelCalibration::Constant(value);
+}
+
 TEST(Values, KeysComeInOrderOfKindThenIndex) {
   Values values;
-  values.set_wheel_scale(0, 0.1);
-  values.set_bias(1, Eigen::Vector3d::Zero());
+  values.set_wheel_calibration(0, calibration(0.1));
+  values.set_bias(1, motion::ImuBias::Zero());
   values.set_pose(2, {});
   values.set_pose(0, {});
-  const std::vector<Key> expected = {pose_key(0), pose_key(2), bias_key(1), wheel_scale_key(0)};
+  const std::vector<Key> expected = {pose_key(0), pose_key(2), bias_key(1),
+                                     wheel_calibration_key(0)};
   EXPECT_EQ(values.keys(), expected);
   EXPECT_EQ(values.size(), 4u);
 }
@@ -37,19 +42,20 @@ RC_GTEST_PROP(Values, AreTheSameInWhateverOrderTheyAreSet, (std::uint64_t seed))
   for (int k = 0; k < 30; ++k) {
     const auto index = static_cast<std::uint32_t>(500 + rng.below(60) - rng.below(500));
     expected[index] = rng.normal();
-    values.set_wheel_scale(index, expected[index]);
+    values.set_wheel_calibration(index, calibration(expected[index]));
   }
   RC_ASSERT(values.size() == expected.size());
   std::vector<Key> keys;
   for (const auto& [index, value] : expected) {
-    keys.push_back(wheel_scale_key(index));
-    RC_ASSERT(values.wheel_scale(index) == value);
+    keys.push_back(wheel_calibration_key(index));
+    RC_ASSERT(values.wheel_calibration(index) == calibration(value));
   }
   RC_ASSERT(values.keys() == keys);
   Values merged;
-  merged.set_wheel_scale(0, 0);
+  merged.set_wheel_calibration(0, calibration(0));
   merged.merge(values);
-  for (const auto& [index, value] : expected) RC_ASSERT(merged.wheel_scale(index) == value);
+  for (const auto& [index, value] : expected)
+    RC_ASSERT(merged.wheel_calibration(index) == calibration(value));
 }
 
 TEST(Values, RetractOfManyIsThatOfEachWithItsPart) {
@@ -98,14 +104,14 @@ RC_GTEST_PROP(Values, AnOrientedPoseTurnsAsItsPose, (std::uint64_t seed)) {
 
 TEST(Values, RetractAddsToVectors) {
   Values values;
-  values.set_bias(0, {1, 2, 3});
-  values.set_wheel_scale(0, 0.5);
-  const Eigen::Vector3d ones(1, 1, 1);
+  values.set_bias(0, {1, 2, 3, 4});
+  values.set_wheel_calibration(0, calibration(0.5));
+  const motion::ImuBias ones = motion::ImuBias::Ones();
   values.retract(bias_key(0), ones.data());
-  const double quarter = 0.25;
-  values.retract(wheel_scale_key(0), &quarter);
-  EXPECT_EQ(values.bias(0), Eigen::Vector3d(2, 3, 4));
-  EXPECT_EQ(values.wheel_scale(0), 0.75);
+  const motion::WheelCalibration quarter = calibration(0.25);
+  values.retract(wheel_calibration_key(0), quarter.data());
+  EXPECT_EQ(values.bias(0), motion::ImuBias(2, 3, 4, 5));
+  EXPECT_EQ(values.wheel_calibration(0), calibration(0.75));
 }
 
 TEST(Values, MergeTakesTheOthersValues) {

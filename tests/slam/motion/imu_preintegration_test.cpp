@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDt_s = 0.005;
 
-ImuDelta integrate(const std::vector<ImuSample>& samples, const Eigen::Vector3d& bias,
+ImuDelta integrate(const std::vector<ImuSample>& samples, const ImuBias& bias,
                    const ImuModel& model = {}) {
   ImuPreintegrator integrator(model, bias);
   for (const ImuSample& sample : samples) integrator.integrate(sample, kDt_s);
@@ -30,8 +30,7 @@ std::vector<ImuSample> random_samples(Rng& rng, int count) {
 }
 
 TEST(ImuPreintegrator, UniformAccelerationGivesTheSchoolFormula) {
-  const ImuDelta delta =
-      integrate(std::vector<ImuSample>(200, {{}, 0, 2, 0}), Eigen::Vector3d::Zero());
+  const ImuDelta delta = integrate(std::vector<ImuSample>(200, {{}, 0, 2, 0}), ImuBias::Zero());
   EXPECT_NEAR(delta.duration_s, 1, 1e-12);
   EXPECT_NEAR(delta.velocity_mps.x(), 2, 1e-12);
   EXPECT_NEAR(delta.position_m.x(), 1, 1e-12);
@@ -41,7 +40,7 @@ TEST(ImuPreintegrator, UniformAccelerationGivesTheSchoolFormula) {
 TEST(ImuPreintegrator, CircularMotionComesBackToItsStart) {
   // Speed 1 m/s on a circle of radius 1 m: centripetal 1 m/s^2 to the left, one turn in 2 pi s.
   constexpr int kSteps = 1257;
-  ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d::Zero());
+  ImuPreintegrator integrator(ImuModel{}, ImuBias::Zero());
   const double dt = 2 * M_PI / kSteps;
   for (int i = 0; i < kSteps; ++i) integrator.integrate({{}, 1, 0, 1}, dt);
   const ImuDelta& delta = integrator.delta();
@@ -58,7 +57,7 @@ TEST(ImuPreintegrator, TakesTheCentripetalPartOfTheLeverArmOut) {
   ImuModel model;
   model.T_base_imu = Pose2(0.5, 0, 0);
   const ImuDelta delta =
-      integrate(std::vector<ImuSample>(100, {{}, 2, -2, 0}), Eigen::Vector3d::Zero(), model);
+      integrate(std::vector<ImuSample>(100, {{}, 2, -2, 0}), ImuBias::Zero(), model);
   EXPECT_NEAR(delta.position_m.norm(), 0, 1e-12);
 }
 
@@ -66,7 +65,7 @@ TEST(ImuPreintegrator, TurnsTheForceFromTheImusIntoTheBaseFrame) {
   ImuModel model;
   model.T_base_imu = Pose2(0, 0, M_PI / 2);
   const ImuDelta delta =
-      integrate(std::vector<ImuSample>(200, {{}, 0, 0, -1}), Eigen::Vector3d::Zero(), model);
+      integrate(std::vector<ImuSample>(200, {{}, 0, 0, -1}), ImuBias::Zero(), model);
   EXPECT_NEAR(delta.velocity_mps.x(), 1, 1e-12);
   EXPECT_NEAR(delta.velocity_mps.y(), 0, 1e-12);
 }
@@ -74,13 +73,13 @@ TEST(ImuPreintegrator, TurnsTheForceFromTheImusIntoTheBaseFrame) {
 RC_GTEST_PROP(ImuPreintegrator, BiasCorrectionIsRightToFirstOrder, (std::uint64_t seed)) {
   Rng rng(seed);
   const std::vector<ImuSample> samples = random_samples(rng, 100);
-  const Eigen::Vector3d bias(0.01, -0.02, 0.03);
+  const ImuBias bias(0.01, -0.02, 0.03, 0.05);
   ImuModel model;
   model.T_base_imu = Pose2(0.3, -0.1, 0.4);  // a lever arm makes the force depend on the rate
   const ImuDelta delta = integrate(samples, bias, model);
   constexpr double kStep = 1e-5;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d moved = bias + kStep * Eigen::Vector3d::Unit(i);
+  for (int i = 0; i < 4; ++i) {
+    const ImuBias moved = bias + kStep * ImuBias::Unit(i);
     const ImuDelta exact = integrate(samples, moved, model);
     const ImuDelta corrected = delta.corrected(moved);
     // What is left is of second order: (1e-5)^2 times a factor near 1, against a change near 1e-5.
@@ -94,7 +93,7 @@ TEST(ImuPreintegrator, CovarianceIsThatOfRepeatedNoisyRuns) {
   const ImuModel model;
   std::vector<ImuSample> clean;
   for (int i = 0; i < 80; ++i) clean.push_back({{}, 0.5, 0.3 * std::sin(0.1 * i), 0.2});
-  const ImuDelta reference = integrate(clean, Eigen::Vector3d::Zero(), model);
+  const ImuDelta reference = integrate(clean, ImuBias::Zero(), model);
   constexpr int kRuns = 4000;
   Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
   Rng rng(11);
@@ -105,7 +104,7 @@ TEST(ImuPreintegrator, CovarianceIsThatOfRepeatedNoisyRuns) {
       s.accel_x_mps2 += rng.normal(0, model.accel_noise_mps2);
       s.accel_y_mps2 += rng.normal(0, model.accel_noise_mps2);
     }
-    const ImuDelta delta = integrate(noisy, Eigen::Vector3d::Zero(), model);
+    const ImuDelta delta = integrate(noisy, ImuBias::Zero(), model);
     Eigen::Matrix<double, 5, 1> e;
     e << delta.theta_rad - reference.theta_rad, delta.velocity_mps - reference.velocity_mps,
         delta.position_m - reference.position_m;
@@ -119,9 +118,9 @@ TEST(ImuPreintegrator, CovarianceIsThatOfRepeatedNoisyRuns) {
 }
 
 TEST(ImuPreintegrator, ResetStartsAnewWithTheBias) {
-  ImuPreintegrator integrator(ImuModel{}, Eigen::Vector3d::Zero());
+  ImuPreintegrator integrator(ImuModel{}, ImuBias::Zero());
   integrator.integrate({{}, 1, 1, 1}, 0.1);
-  integrator.reset({0.1, 0.2, 0.3});
+  integrator.reset({0.1, 0.2, 0.3, 0});
   EXPECT_EQ(integrator.delta().duration_s, 0);
   integrator.integrate({{}, 0.1, 0.2, 0.3}, 0.1);
   EXPECT_NEAR(integrator.delta().theta_rad, 0, 1e-15);
