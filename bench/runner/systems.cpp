@@ -14,6 +14,7 @@
 #include "bench/tuning/tuned_params.hpp"
 #include "slam/core/expect.hpp"
 #include "slam/core/rng.hpp"
+#include "slam/fusion/ablations.hpp"
 #include "slam/fusion/fusion_slam.hpp"
 
 namespace corridor::runner {
@@ -145,10 +146,12 @@ SystemInfo mrpt_rbpf_entry() {
   return info;
 }
 
-SystemResult make_fusion_system(const fusion::FusionParams& params, const SystemRequest& request) {
-  auto back_end = back_end_for(request, "isam2", {});
-  if (!back_end) return tl::make_unexpected(back_end.error());
-  return fusion::make_fusion(params, request.robot, std::move(*back_end));
+auto fusion_factory(const std::string& name) {
+  return [name](const fusion::FusionParams& params, const SystemRequest& request) -> SystemResult {
+    auto back_end = back_end_for(request, "isam2", {});
+    if (!back_end) return tl::make_unexpected(back_end.error());
+    return fusion::make_fusion(name, params, request.robot, std::move(*back_end));
+  };
 }
 
 SystemInfo fusion_paper_entry() {
@@ -159,7 +162,7 @@ SystemInfo fusion_paper_entry() {
   info.default_backend = "isam2";
   set_factory<fusion::FusionParams>(
       info, {{"published", "the published method", fusion::fusion_paper_params()}},
-      make_fusion_system);
+      fusion_factory(info.name));
   return info;
 }
 
@@ -168,9 +171,12 @@ SystemInfo fusion_entry() {
   info.name = "fusion";
   info.description = "LiDAR, IMU and wheels in a factor graph, per direction, with loop closing";
   info.default_backend = "isam2";
-  set_factory<fusion::FusionParams>(
-      info, with_tuned<fusion::FusionParams>("fusion", {{"default", "the defaults", {}}}),
-      make_fusion_system);
+  std::vector<Profile<fusion::FusionParams>> profiles =
+      with_tuned<fusion::FusionParams>("fusion", {{"default", "the defaults", {}}});
+  for (const fusion::Ablation& ablation : fusion::ablations()) {
+    profiles.push_back({ablation.name, ablation.description, ablation.params});
+  }
+  set_factory<fusion::FusionParams>(info, profiles, fusion_factory(info.name));
   return info;
 }
 

@@ -26,6 +26,8 @@ struct FusionParams {
   bool use_gyro_scale = true;              // estimate the gyro's scale error
   bool use_majority_vote = true;           // LiDAR out where wheels and IMU both contradict it
   bool use_loop_closing = true;
+  bool use_wheels = true;  // false: as if the robot had none
+  bool use_imu = true;
 
   double key_distance_m = 0.1;
   double key_angle_rad = 0.1;
@@ -145,6 +147,8 @@ void FusionParams::visit_structure(FusionParams& p, V& v) {
       "leave the LiDAR out along directions in which wheels and IMU both contradict it"},
     p.use_majority_vote);
   v(I{"use_loop_closing", "", "search for and add loop closures"}, p.use_loop_closing);
+  v(I{"use_wheels", "", "false: drive as if the robot had no wheel encoders"}, p.use_wheels);
+  v(I{"use_imu", "", "false: drive as if the robot had no IMU"}, p.use_imu);
   v(I{"key_distance_m", "m", "travel between key scans", 0.01, 10}, p.key_distance_m);
   v(I{"key_angle_rad", "rad", "turn between key scans", 0.01, 3.2}, p.key_angle_rad);
   v(I{"key_interval_s", "s", "longest time between key scans of a moving robot with an IMU", 0.05,

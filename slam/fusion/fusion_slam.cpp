@@ -27,9 +27,10 @@ constexpr int kRefinedPerKeyScan = 3;
 
 class FusionSlam final : public SlamSystem, public graph::GraphSource {
  public:
-  FusionSlam(const FusionParams& params, const RobotModel& robot,
+  FusionSlam(std::string name, const FusionParams& params, const RobotModel& robot,
              std::unique_ptr<backend::BackEnd> back_end)
-      : params_(params),
+      : name_(std::move(name)),
+        params_(params),
         robot_(robot),
         back_end_(std::move(back_end)),
         predictor_(robot_, params_),
@@ -39,9 +40,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
         loop_edges_(params_),
         wheel_noise_(params.max_wheel_noise_factor) {}
 
-  std::string_view name() const override {
-    return params_.use_directional_degeneracy ? "fusion" : "fusion-paper";
-  }
+  std::string_view name() const override { return name_; }
   const graph::FactorGraph& solved_graph() const override { return back_end_->graph(); }
   const graph::Values& solved_values() const override { return back_end_->estimate(); }
 
@@ -50,8 +49,10 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     report.stamp = stamp_of(event);
     if (const auto* scan = std::get_if<LaserScan>(&event)) return on_scan(*scan);
     const auto stage = stage_clock().enter(Stage::kPreprocess);
-    if (const auto* wheels = std::get_if<WheelSample>(&event)) predictor_.add(*wheels);
-    if (const auto* imu = std::get_if<ImuSample>(&event)) predictor_.add(*imu);
+    const auto* wheels = std::get_if<WheelSample>(&event);
+    const auto* imu = std::get_if<ImuSample>(&event);
+    if (wheels != nullptr && params_.use_wheels) predictor_.add(*wheels);
+    if (imu != nullptr && params_.use_imu) predictor_.add(*imu);
     return report;
   }
 
@@ -338,6 +339,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     counters["wheel_noise_factor"] = wheel_noise_.factor();
   }
 
+  const std::string name_;
   const FusionParams params_;
   const RobotModel robot_;
   std::unique_ptr<backend::BackEnd> back_end_;
@@ -368,9 +370,10 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
 }  // namespace
 
-std::unique_ptr<SlamSystem> make_fusion(const FusionParams& params, const RobotModel& robot,
+std::unique_ptr<SlamSystem> make_fusion(std::string name, const FusionParams& params,
+                                        const RobotModel& robot,
                                         std::unique_ptr<backend::BackEnd> back_end) {
-  return std::make_unique<FusionSlam>(params, robot, std::move(back_end));
+  return std::make_unique<FusionSlam>(std::move(name), params, robot, std::move(back_end));
 }
 
 }  // namespace corridor::fusion

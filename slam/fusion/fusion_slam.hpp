@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "slam/backend/back_end.hpp"
 #include "slam/core/slam_system.hpp"
@@ -12,9 +13,10 @@
 namespace corridor::fusion {
 
 // Works with any subset of sensors that holds a LiDAR: without IMU the heading between scans comes
-// from the wheels, without wheels the prediction keeps still. name(): "fusion" or "fusion-paper".
-// The object implements graph::GraphSource too.
-std::unique_ptr<SlamSystem> make_fusion(const FusionParams& params, const RobotModel& robot,
+// from the wheels, without wheels the prediction keeps still. name: what its
+// name() says, "fusion" or "fusion-paper". The object implements graph::GraphSource too.
+std::unique_ptr<SlamSystem> make_fusion(std::string name, const FusionParams& params,
+                                        const RobotModel& robot,
                                         std::unique_ptr<backend::BackEnd> back_end);
 
 }  // namespace corridor::fusion

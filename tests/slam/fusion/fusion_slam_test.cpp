@@ -27,8 +27,8 @@ struct Outcome {
 };
 
 Outcome run(const FusionParams& params, const SensorLog& log) {
-  const auto system =
-      make_fusion(params, log.robot, backend::make_least_squares(backend::LeastSquaresParams{}));
+  const auto system = make_fusion("fusion", params, log.robot,
+                                  backend::make_least_squares(backend::LeastSquaresParams{}));
   Outcome result;
   for (const SensorEvent& event : log.events) {
     const auto report = system->step(event);
@@ -252,8 +252,8 @@ TEST(FusionSlam, AStandingRobotStays) {
 
 TEST(FusionSlam, HandsOutTheGraphItSolved) {
   const SensorLog log = room_log(true, false, 30);
-  const auto system =
-      make_fusion({}, log.robot, backend::make_least_squares(backend::LeastSquaresParams{}));
+  const auto system = make_fusion("fusion", {}, log.robot,
+                                  backend::make_least_squares(backend::LeastSquaresParams{}));
   for (const SensorEvent& event : log.events) ASSERT_TRUE(system->step(event).has_value());
   const auto estimate = system->finish();
   ASSERT_TRUE(estimate.has_value());
