@@ -31,7 +31,16 @@ void WheelDelta::append(const WheelDelta& next) {
   raw_T_i_j_ = raw_T_i_j_ * next.raw_T_i_j_;
 }
 
-void WheelDelta::set_twists(const Eigen::Vector3d& at_i, const Eigen::Vector3d& at_j) {
+Eigen::Vector3d WheelDelta::corrected_twist(const Eigen::Vector3d& raw) const {
+  const double speed_mps = std::copysign(raw.head<2>().norm(), raw.x());
+  const double scale = 1 + intrinsics_(kScale);
+  return {scale * raw.x(), scale * raw.y(),
+          (1 + intrinsics_(kTurn)) * raw.z() + intrinsics_(kUnbalance) * speed_mps};
+}
+
+void WheelDelta::set_twists(const Eigen::Vector3d& raw_at_i, const Eigen::Vector3d& raw_at_j) {
+  const Eigen::Vector3d at_i = corrected_twist(raw_at_i);
+  const Eigen::Vector3d at_j = corrected_twist(raw_at_j);
   by_intrinsics_.col(kDelay).head<2>() = T_i_j_.rotation() * at_j.head<2>() - at_i.head<2>() -
                                          at_i(2) * perpendicular(T_i_j_.translation_m());
   by_intrinsics_(2, kDelay) = at_j(2) - at_i(2);

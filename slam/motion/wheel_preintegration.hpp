@@ -37,7 +37,7 @@ class WheelDelta {
   void append(const WheelDelta& next);
   // Raw motion per second (m/s, m/s, rad/s) of the axle at i and at j, in its frame there: what a
   // delay of the clock exchanges.
-  void set_twists(const Eigen::Vector3d& at_i, const Eigen::Vector3d& at_j);
+  void set_twists(const Eigen::Vector3d& raw_at_i, const Eigen::Vector3d& raw_at_j);
 
   // T_i_j at a calibration near that of the integration, to first order.
   [[nodiscard]] Pose2 at(const WheelCalibration& calibration) const;
@@ -52,6 +52,8 @@ class WheelDelta {
   [[nodiscard]] const Pose2& raw_T_i_j() const { return raw_T_i_j_; }
 
  private:
+  [[nodiscard]] Eigen::Vector3d corrected_twist(const Eigen::Vector3d& raw) const;
+
   Intrinsics intrinsics_;
   Pose2 T_i_j_, raw_T_i_j_;
   ByIntrinsics by_intrinsics_ = ByIntrinsics::Zero();

@@ -57,7 +57,7 @@ RC_GTEST_PROP(WheelDelta, IsCorrectedToFirstOrderByAnotherCalibration, (std::uin
     const Pose2 exact = drive.between(0.11, 0.83, moved).at(moved);
     // Second order, and for the delay the twist's change from one sample to the next: against a
     // change near 1e-4.
-    const double tolerance = i == kDelay ? 2e-5 : 1e-8;
+    const double tolerance = i == kDelay ? 1e-5 : 1e-8;
     RC_ASSERT(difference(delta.at(moved), exact) < tolerance);
   }
 }
