@@ -238,7 +238,6 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   void add_key_scan(const LaserScan& scan, std::vector<Eigen::Vector2d> points,
                     const TrackedScan& tracked) {
-    std::optional<graph::FactorId> lidar_id;
     Submap& matched = local_map_.active();
     {
       const auto stage = stage_clock().enter(Stage::kGraph);
@@ -254,15 +253,16 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       const auto optimise = stage_clock().enter(Stage::kOptimise);
       keep(back_end_->update(std::move(factors), values, {}));
     }
-    if (verdict_.lidar_factor) lidar_id = last_report_.new_factor_ids[*verdict_.lidar_factor];
     if (verdict_.are_wheels_used || !verdict_.is_degenerate) anchor_stamp_ = scan.stamp;
     key_scans_.push_back(
         {scan, std::move(points), tracked.match && tracked.num_outvoted == 0, path_m_, twist_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
-    if (lidar_id && params_.use_submap_refinement)
-      matched.set_factor(last_key(), *lidar_id, tracked.match->num_observable);
     if (params_.use_submap_refinement) {
+      if (verdict_.lidar_factor) {
+        matched.set_factor(last_key(), last_report_.new_factor_ids[*verdict_.lidar_factor],
+                           tracked.match->num_observable);
+      }
       refine_submaps(refiner_.next(kRefinedPerKeyScan, key_scans_, local_map_, estimate()));
       T_map_base_ = estimate().pose(last_key());
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/fusion/calibration.hpp"
+#include "slam/fusion/submap.hpp"
 #include "slam/graph/factors/motion_factors.hpp"
 #include "slam/graph/factors/pose_factors.hpp"
 
@@ -44,17 +45,13 @@ LidarChoice scalar_lidar_test(const Interval& interval, const RobotModel& robot,
   return choice;
 }
 
-graph::RelativePose lidar_factor(const Interval& interval,
-                                 const Eigen::Matrix3d& sqrt_information) {
-  return graph::RelativePose(graph::pose_key(interval.submap_frame), graph::pose_key(interval.j),
-                             interval.match->T_map_base, sqrt_information);
-}
-
 graph::RelativePose scalar_lidar_factor(const Interval& interval, double sigma_factor,
                                         const FusionParams& params) {
   const double translation = 1 / (params.lidar_sigma_m * sigma_factor);
   const double rotation = 1 / (params.lidar_sigma_rad * sigma_factor);
-  return lidar_factor(interval, Eigen::Vector3d(translation, translation, rotation).asDiagonal());
+  return graph::RelativePose(graph::pose_key(interval.submap_frame), graph::pose_key(interval.j),
+                             interval.match->T_map_base,
+                             Eigen::Vector3d(translation, translation, rotation).asDiagonal());
 }
 
 graph::RelativePose tracked_factor(const Interval& interval) {
@@ -141,8 +138,8 @@ IntervalVerdict add_directional_factors(const Interval& interval, const WheelNoi
   }
   if (verdict.is_lidar_used) {
     verdict.lidar_factor = factors.size();
-    factors.push_back(
-        lidar_factor(interval, graph::square_root_information(interval.match->information)));
+    factors.push_back(place_factor(interval.submap_frame, interval.j, interval.match->T_map_base,
+                                   interval.match->information));
   }
   return verdict;
 }

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "slam/graph/factors/pose_factors.hpp"
+#include "slam/fusion/submap.hpp"
 
 namespace corridor::fusion {
 
@@ -29,10 +29,8 @@ LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures,
       return edge.scan_key == closure.scan_key;
     });
     if (is_closed) continue;
-    factors.push_back(graph::RelativePose(
-        graph::pose_key(closure.submap_frame), graph::pose_key(closure.scan_key),
-        closure.match.T_map_base,
-        graph::square_root_information(loosened(closure.match.information, params_))));
+    factors.push_back(place_factor(closure.submap_frame, closure.scan_key, closure.match.T_map_base,
+                                   loosened(closure.match.information, params_)));
     added.push_back(&closure);
   }
   Outcome solves;
@@ -54,11 +52,16 @@ void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& solves) {
     if (edge.is_firm || !back_end.graph().contains(edge.id)) return 0.0;
     return back_end.graph().chi2(edge.id, back_end.estimate());
   };
-  while (!edges_.empty()) {
-    const auto worst =
-        std::max_element(edges_.begin(), edges_.end(),
-                         [&](const Edge& a, const Edge& b) { return chi2(a) < chi2(b); });
-    if (!(chi2(*worst) > params_.loop_gate)) return;
+  while (true) {
+    auto worst = edges_.end();
+    double worst_chi2 = params_.loop_gate;
+    for (auto edge = edges_.begin(); edge != edges_.end(); ++edge) {
+      const double edge_chi2 = chi2(*edge);
+      if (!(edge_chi2 > worst_chi2)) continue;
+      worst = edge;
+      worst_chi2 = edge_chi2;
+    }
+    if (worst == edges_.end()) return;
     solves.push_back(back_end.update({}, {}, {&worst->id, 1}));
     solves.push_back(back_end.solve());
     edges_.erase(worst);

@@ -16,10 +16,8 @@ double chi2_along(const Eigen::Vector3d& v, double match_variance, const Pose2& 
 Witness witness_of(const Pose2& T_submap_last, const MotionEstimate& motion,
                    const matching::ObservabilityParams& floors) {
   // The pose at the last scan came from a match of the same kind: its error counts too.
-  const Eigen::Vector3d last_sigma(floors.translation_floor_m, floors.translation_floor_m,
-                                   floors.rotation_floor_rad);
   Witness witness{T_submap_last * motion.T_last_now, motion.covariance};
-  witness.covariance.diagonal() += last_sigma.cwiseAbs2();
+  witness.covariance.diagonal() += matching::floor_sigma(floors).cwiseAbs2();
   return witness;
 }
 
@@ -28,8 +26,7 @@ Witness witness_of(const Pose2& T_submap_last, const MotionEstimate& motion,
 matching::ObservableMatch without_outvoted(const matching::ObservableMatch& match,
                                            const Witness& wheels, const Witness& imu, double gate,
                                            const matching::ObservabilityParams& floors) {
-  const Eigen::Vector3d unit(floors.translation_floor_m, floors.translation_floor_m,
-                             floors.rotation_floor_rad);
+  const Eigen::Vector3d unit = matching::floor_sigma(floors);
   const Eigen::Vector3d per_unit = unit.cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
       Eigen::Matrix3d(unit.asDiagonal() * match.information * unit.asDiagonal()));

@@ -131,11 +131,8 @@ TrackedScan track_scan(Submap& submap, std::span<const Eigen::Vector2d> points_b
   tracked.match = put_to_vote(seen, T_submap_last, prediction, params);
   tracked.num_outvoted = seen.num_observable - tracked.match->num_observable;
   // The pose at the last scan came from a match of the same kind: its error counts too.
-  Eigen::Vector3d last_match(params.observability.translation_floor_m,
-                             params.observability.translation_floor_m,
-                             params.observability.rotation_floor_rad);
   Eigen::Matrix3d covariance = prediction.covariance;
-  covariance.diagonal() += last_match.cwiseAbs2();
+  covariance.diagonal() += matching::floor_sigma(params.observability).cwiseAbs2();
   Fused fused = fuse(T_predicted, *tracked.match, covariance);
   if (prediction.has_wheels) {
     tracked.wheel_chi2 = fused.chi2;

@@ -9,6 +9,12 @@ namespace corridor::fusion {
 
 using matching::MatchResult;
 
+graph::RelativePose place_factor(std::uint32_t frame, std::uint32_t key, const Pose2& T_submap_base,
+                                 const Eigen::Matrix3d& information) {
+  return graph::RelativePose(graph::pose_key(frame), graph::pose_key(key), T_submap_base,
+                             graph::square_root_information(information));
+}
+
 Submap::Submap(std::uint32_t frame, const FusionParams& params)
     : frame_(frame),
       params_(params),

@@ -11,6 +11,7 @@
 
 #include "slam/fusion/fusion_params.hpp"
 #include "slam/graph/factor_graph.hpp"
+#include "slam/graph/factors/pose_factors.hpp"
 #include "slam/matching/surfel_grid.hpp"
 
 namespace corridor::fusion {
@@ -21,6 +22,11 @@ struct SubmapScan {
   std::optional<graph::FactorId> factor;  // in the graph: its place in this submap,
   int num_observable = 0;                 // and how many directions of it that says
 };
+
+// The factor that says so: key scan `key` at T_submap_base of the submap whose frame is the pose
+// `frame`; information 3x3, base, order (x_m, y_m, theta_rad), possibly singular.
+graph::RelativePose place_factor(std::uint32_t frame, std::uint32_t key, const Pose2& T_submap_base,
+                                 const Eigen::Matrix3d& information);
 
 class Submap {
  public:

@@ -1,51 +1,18 @@
 #include "slam/fusion/submap_refiner.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
 #include "slam/fusion/scan_tracker.hpp"
-#include "slam/graph/factors/pose_factors.hpp"
 
 namespace corridor::fusion {
-namespace {
-
-// Variance of what defines a frame, as a share of a match's floor.
-constexpr double kDefinition = 1e-2;
-
-// The match's information, and where it has none that of a definition.
-Eigen::Matrix3d defining_information(const Eigen::Matrix3d& seen, const FusionParams& params) {
-  const Eigen::Vector3d unit(params.observability.translation_floor_m,
-                             params.observability.translation_floor_m,
-                             params.observability.rotation_floor_rad);
-  const Eigen::Vector3d per_unit = unit.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
-      Eigen::Matrix3d(unit.asDiagonal() * seen * unit.asDiagonal()));
-  Eigen::Vector3d information = eigen.eigenvalues();
-  // A seen direction has at least this, see matching::ObservabilityParams.
-  for (double& value : information) {
-    if (value < 1e-3) value = 1 / kDefinition;
-  }
-  const Eigen::Matrix3d filled =
-      eigen.eigenvectors() * information.asDiagonal() * eigen.eigenvectors().transpose();
-  return per_unit.asDiagonal() * filled * per_unit.asDiagonal();
-}
-
-graph::NewFactor place_factor(std::uint32_t frame, std::uint32_t key, const Pose2& T_submap_base,
-                              const Eigen::Matrix3d& information) {
-  return graph::RelativePose(graph::pose_key(frame), graph::pose_key(key), T_submap_base,
-                             graph::square_root_information(information));
-}
-
-}  // namespace
-
 graph::NewFactor frame_factor(Submap& submap, const KeyScan& first, const RobotModel& robot,
                               const FusionParams& params) {
   const auto match = match_again(submap, first.points_base_m, Pose2(), robot, params);
   const Eigen::Matrix3d seen =
       match ? match->information : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
   return place_factor(submap.frame(), submap.scans().front().key, Pose2(),
-                      defining_information(seen, params));
+                      matching::defining_information(seen, params.observability));
 }
 
 void SubmapRefiner::refine(Submap& submap, std::size_t scan, std::span<const KeyScan> key_scans,
@@ -58,10 +25,10 @@ void SubmapRefiner::refine(Submap& submap, std::size_t scan, std::span<const Key
   // What saw less would leave undetermined what the wheels do not hold either.
   if (!match || match->num_observable < std::max(placed.num_observable, 1)) return;
   const Eigen::Matrix3d information =
-      scan == 0 ? defining_information(match->information, params_) : match->information;
-  places.push_back({&submap, placed.key,
-                    place_factor(submap.frame(), placed.key, match->T_map_base, information),
-                    placed.factor});
+      scan == 0 ? matching::defining_information(match->information, params_.observability)
+                : match->information;
+  places.push_back(
+      {place_factor(submap.frame(), placed.key, match->T_map_base, information), placed.factor});
 }
 
 std::vector<RefinedPlace> SubmapRefiner::next(int max_scans, std::span<const KeyScan> key_scans,

@@ -19,8 +19,6 @@ namespace corridor::fusion {
 
 // A place of a key scan in a submap, known better than before.
 struct RefinedPlace {
-  Submap* submap = nullptr;
-  std::uint32_t key = 0;
   graph::NewFactor factor;
   std::optional<graph::FactorId> replaced;  // the factor that says the same, less well
 };

@@ -8,10 +8,8 @@ namespace corridor::matching {
 
 namespace {
 
-// In units in which the floor is the identity, metres and radians can be compared.
-Eigen::Vector3d unit_of(const ObservabilityParams& params) {
-  return {params.translation_floor_m, params.translation_floor_m, params.rotation_floor_rad};
-}
+// Variance of what defines a frame, as a share of a match's floor.
+constexpr double kDefinition = 1e-2;
 
 struct Direction {
   Eigen::Vector3d v;  // in those units
@@ -21,7 +19,7 @@ struct Direction {
 
 std::array<Direction, 3> directions_of(const MatchResult& match,
                                        const ObservabilityParams& params) {
-  const Eigen::Vector3d unit = unit_of(params);
+  const Eigen::Vector3d unit = floor_sigma(params);
   const Eigen::Matrix3d scaled = unit.asDiagonal() * match.information * unit.asDiagonal();
   const Eigen::Matrix3d spurious =
       unit.asDiagonal() * match.spurious_information * unit.asDiagonal();
@@ -42,17 +40,21 @@ std::array<Direction, 3> directions_of(const MatchResult& match,
 
 }  // namespace
 
+Eigen::Vector3d floor_sigma(const ObservabilityParams& params) {
+  return {params.translation_floor_m, params.translation_floor_m, params.rotation_floor_rad};
+}
+
 Eigen::Matrix3d unseen_information(const MatchResult& match, const ObservabilityParams& params) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (const Direction& direction : directions_of(match, params)) {
     if (!direction.is_seen) information += direction.v * direction.v.transpose();
   }
-  const Eigen::Vector3d per_unit = unit_of(params).cwiseInverse();
+  const Eigen::Vector3d per_unit = floor_sigma(params).cwiseInverse();
   return per_unit.asDiagonal() * information * per_unit.asDiagonal();
 }
 
 ObservableMatch observable_part(const MatchResult& match, const ObservabilityParams& params) {
-  const Eigen::Vector3d unit = unit_of(params);
+  const Eigen::Vector3d unit = floor_sigma(params);
   ObservableMatch part;
   Eigen::Vector3d step = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -75,6 +77,22 @@ ObservableMatch observable_part(const MatchResult& match, const ObservabilityPar
   const double largest = translation.eigenvalues()(1);
   part.weakest_information_ratio = largest > 0 ? translation.eigenvalues()(0) / largest : 0;
   return part;
+}
+
+Eigen::Matrix3d defining_information(const Eigen::Matrix3d& seen,
+                                     const ObservabilityParams& params) {
+  const Eigen::Vector3d unit = floor_sigma(params);
+  const Eigen::Vector3d per_unit = unit.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+      Eigen::Matrix3d(unit.asDiagonal() * seen * unit.asDiagonal()));
+  Eigen::Vector3d information = eigen.eigenvalues();
+  // A seen direction has at least this, see ObservabilityParams.
+  for (double& value : information) {
+    if (value < 1e-3) value = 1 / kDefinition;
+  }
+  const Eigen::Matrix3d filled =
+      eigen.eigenvectors() * information.asDiagonal() * eigen.eigenvectors().transpose();
+  return per_unit.asDiagonal() * filled * per_unit.asDiagonal();
 }
 
 }  // namespace corridor::matching

@@ -43,11 +43,20 @@ struct ObservableMatch {
   double weakest_information_ratio = 0;
 };
 
+// Standard deviations of the systematic error, order (x_m, y_m, theta_rad): in these units metres
+// and radians can be compared.
+Eigen::Vector3d floor_sigma(const ObservabilityParams& params);
+
 // Prior information, 3x3, order (x_m, y_m, theta_rad), that holds a pose to within the floors along
 // the directions that the scan does not see; zero if it sees all. In base at match.T_map_base: used
 // at a prediction it leaks half the heading's correction times that across the direction. Requires
 // match.is_usable().
 Eigen::Matrix3d unseen_information(const MatchResult& match, const ObservabilityParams& params);
+
+// The information `seen` of an observable match, 3x3, base, and along the directions in which it is
+// zero that of a definition, a tenth of the floors: for a frame that is where the scan is.
+Eigen::Matrix3d defining_information(const Eigen::Matrix3d& seen,
+                                     const ObservabilityParams& params);
 
 // Requires match.is_usable().
 ObservableMatch observable_part(const MatchResult& match, const ObservabilityParams& params);
