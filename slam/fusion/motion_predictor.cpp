@@ -49,11 +49,14 @@ std::optional<MotionEstimate> MotionPredictor::by_imu(Timestamp stamp,
 }
 
 std::optional<motion::WheelDelta> MotionPredictor::advance_wheels(Timestamp stamp) {
-  // Before the first one there is nothing to measure from.
-  const Timestamp since = last_wheel_stamp_.value_or(stamp);
-  std::optional<motion::WheelDelta> step = wheels_.between(since, stamp, calibration_);
-  if (!step) return std::nullopt;
-  wheel_delta_.append(*step);
+  const std::optional<motion::WheelReading> now = wheels_.read(stamp, calibration_(motion::kDelay));
+  if (!now) return std::nullopt;
+  std::optional<motion::WheelDelta> step;
+  if (last_reading_) {
+    step = wheels_.between(*last_reading_, *now, calibration_);
+    wheel_delta_.append(*step);
+  }
+  last_reading_ = now;
   last_wheel_stamp_ = stamp;
   return step;
 }
@@ -98,6 +101,8 @@ void MotionPredictor::reset_interval(Timestamp stamp, const motion::ImuBias& bia
   calibration_ = calibration;
   wheel_delta_ = motion::WheelDelta(calibration);
   did_wheels_know_begin_ = last_wheel_stamp_ == stamp;
+  // What the new delay moves was read from the same samples: it is no motion of the robot.
+  if (did_wheels_know_begin_) last_reading_ = wheels_.read(stamp, calibration(motion::kDelay));
 }
 
 std::optional<motion::WheelDelta> MotionPredictor::wheel_interval() const {

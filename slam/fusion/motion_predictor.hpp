@@ -1,6 +1,7 @@
 // Caches wheels and IMU and tells how the robot moved between two scans: translation from the
-// wheels (with the estimated scale), rotation from the bias-corrected gyro. Where the wheels are
-// silent the IMU carries the estimated velocity on, where both are, the last motion goes on.
+// wheels (with their estimated calibration), rotation from the bias-corrected gyro. Where the
+// wheels are silent the IMU carries the estimated velocity on, where both are, the last motion goes
+// on.
 #pragma once
 
 #include <Eigen/Core>
@@ -65,7 +66,7 @@ class MotionPredictor {
 
  private:
   // What the wheels say of the time since they were last known; goes on with the interval.
-  [[nodiscard]] std::optional<motion::WheelDelta> advance_wheels(Timestamp stamp);
+  std::optional<motion::WheelDelta> advance_wheels(Timestamp stamp);
   // No part of the motion since the last call went by without a reading.
   [[nodiscard]] bool is_gyro_whole() const {
     return imu_.delta().unmeasured_s == last_imu_delta_.unmeasured_s;
@@ -85,6 +86,8 @@ class MotionPredictor {
   // Of the running interval, up to the last scan at which the wheels were known.
   motion::WheelDelta wheel_delta_;
   bool did_wheels_know_begin_ = false;
+  // At the last scan at which they were known, and its stamp.
+  std::optional<motion::WheelReading> last_reading_;
   std::optional<Timestamp> last_wheel_stamp_;
   std::optional<Timestamp> last_stamp_;
   motion::ImuDelta last_imu_delta_;  // of the running interval, at the last scan

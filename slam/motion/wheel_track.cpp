@@ -13,6 +13,7 @@ Pose2 along(const WheelSample& from, const WheelSample& to, Timestamp stamp) {
 }  // namespace
 
 void WheelTrack::add(const WheelSample& sample) {
+  if (!samples_.empty() && samples_.back().stamp == sample.stamp) samples_.pop_back();
   samples_.push_back(sample);
   while (samples_.size() > 2 && seconds_between(samples_[1].stamp, sample.stamp) > kHistory_s) {
     samples_.pop_front();
@@ -38,33 +39,39 @@ std::optional<Pose2> WheelTrack::pose_at(Timestamp stamp) const {
   return along(*std::prev(later), *later, stamp);
 }
 
-Eigen::Vector3d WheelTrack::twist_at(Timestamp stamp) const {
-  if (samples_.size() < 2) return Eigen::Vector3d::Zero();
-  auto later =
-      std::lower_bound(samples_.begin() + 1, samples_.end() - 1, stamp,
+std::pair<const WheelSample*, const WheelSample*> WheelTrack::around(Timestamp moment) const {
+  const auto later =
+      std::lower_bound(samples_.begin() + 1, samples_.end() - 1, moment,
                        [](const WheelSample& sample, Timestamp t) { return sample.stamp < t; });
-  const WheelSample& earlier = *std::prev(later);
-  return later->T_odom_base.minus(earlier.T_odom_base) /
-         seconds_between(earlier.stamp, later->stamp);
+  return {&*std::prev(later), &*later};
 }
 
-std::optional<WheelDelta> WheelTrack::between(Timestamp from, Timestamp to,
-                                              const WheelCalibration& calibration) const {
-  const Timestamp begin = add_seconds(from, calibration(kDelay));
-  const Timestamp end = add_seconds(to, calibration(kDelay));
-  const std::optional<Pose2> first = pose_at(begin);
-  const std::optional<Pose2> last = pose_at(end);
-  if (!first || !last) return std::nullopt;
+std::optional<WheelReading> WheelTrack::read(Timestamp stamp, double delay_s) const {
+  if (!pose_at(stamp)) return std::nullopt;
+  const Timestamp moment = add_seconds(stamp, delay_s);
+  if (samples_.size() < 2) {
+    return WheelReading{moment, samples_.front().T_odom_base, Eigen::Vector3d::Zero()};
+  }
+  // Before the first sample nothing is known but that one.
+  const Timestamp known = std::max(moment, samples_.front().stamp);
+  const auto [earlier, later] = around(known);
+  const Eigen::Vector3d twist = later->T_odom_base.minus(earlier->T_odom_base) /
+                                seconds_between(earlier->stamp, later->stamp);
+  return WheelReading{moment, along(*earlier, *later, known), twist};
+}
+
+WheelDelta WheelTrack::between(const WheelReading& from, const WheelReading& to,
+                               const WheelCalibration& calibration) const {
   WheelDelta delta(calibration);
-  Pose2 reached = *first;
+  Pose2 reached = from.T_odom_axle;
   for (const WheelSample& sample : samples_) {
-    if (sample.stamp <= begin) continue;
-    if (sample.stamp >= end) break;
+    if (sample.stamp <= from.moment) continue;
+    if (sample.stamp >= to.moment) break;
     delta.append(reached.between(sample.T_odom_base));
     reached = sample.T_odom_base;
   }
-  delta.append(reached.between(*last));
-  delta.set_twists(twist_at(begin), twist_at(end));
+  delta.append(reached.between(to.T_odom_axle));
+  delta.set_twists(from.twist, to.twist);
   return delta;
 }
 

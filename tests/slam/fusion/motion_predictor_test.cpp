@@ -78,6 +78,29 @@ TEST_F(MotionPredictorTest, TheWheelsIntervalBridgesAScanAtWhichTheyWereSilent) 
   EXPECT_NEAR(predictor_.wheel_interval()->raw_T_i_j().x_m(), 0.4, 1e-9);
 }
 
+TEST_F(MotionPredictorTest, AfterALongPauseOfTheScansTheWheelsAreBack) {
+  add_wheels(-0.1, 0, 0.5);
+  start();
+  add_wheels(0.05, 20, 0.5);
+  EXPECT_NEAR(predictor_.predict(at(20), {}).T_last_now.x_m(), 10, 1e-9);
+  add_wheels(20.05, 20.2, 0.5);
+  const Prediction prediction = predictor_.predict(at(20.2), {});
+  EXPECT_TRUE(prediction.has_wheels);
+  EXPECT_NEAR(prediction.T_last_now.x_m(), 0.1, 1e-9);
+  EXPECT_NEAR(predictor_.wheel_interval()->raw_T_i_j().x_m(), 10.1, 1e-9);
+}
+
+TEST_F(MotionPredictorTest, ANewDelayOfTheWheelsIsNoMotion) {
+  calibration_(motion::kDelay) = 0.05;
+  add_wheels(-0.1, 0.1, 0.5);
+  start();
+  EXPECT_NEAR(predictor_.predict(at(0.05), {}).T_last_now.x_m(), 0.025, 1e-9);
+  calibration_(motion::kDelay) = 0.1;
+  predictor_.reset_interval(at(0.05), motion::ImuBias::Zero(), calibration_);
+  add_wheels(0.15, 0.3, 0.5);
+  EXPECT_NEAR(predictor_.predict(at(0.2), {}).T_last_now.x_m(), 0.075, 1e-9);
+}
+
 TEST_F(MotionPredictorTest, AnAxleBehindTheLidarTurnsTheLidarAlongACircle) {
   calibration_(motion::kAxleX) = -0.1;
   start();

@@ -14,6 +14,13 @@ namespace {
 
 Timestamp at(double time_s) { return timestamp_from_seconds(time_s); }
 
+WheelDelta motion_of(const WheelTrack& track, double from_s, double to_s,
+                     const WheelCalibration& calibration) {
+  const double delay_s = calibration(kDelay);
+  return track.between(*track.read(at(from_s), delay_s), *track.read(at(to_s), delay_s),
+                       calibration);
+}
+
 // A robot that drives and turns unevenly, sampled every 20 ms from -1 s to 2 s.
 class UnevenDrive {
  public:
@@ -29,7 +36,7 @@ class UnevenDrive {
     }
   }
   [[nodiscard]] WheelDelta between(double from_s, double to_s, const WheelCalibration& c) const {
-    return *track_.between(at(from_s), at(to_s), c);
+    return motion_of(track_, from_s, to_s, c);
   }
 
  private:
@@ -93,7 +100,7 @@ TEST(WheelDelta, ADelayReadsTheWheelsLater) {
   WheelCalibration calibration = WheelCalibration::Zero();
   calibration(kDelay) = 0.2;
   // x = t^2: from 0.7 s to 1.2 s.
-  EXPECT_NEAR(track.between(at(0.5), at(1), calibration)->raw_T_i_j().x_m(), 1.44 - 0.49, 1e-12);
+  EXPECT_NEAR(motion_of(track, 0.5, 1, calibration).raw_T_i_j().x_m(), 1.44 - 0.49, 1e-12);
 }
 
 TEST(WheelDelta, TheBaseGoesAroundAnAxleBehindIt) {
@@ -107,12 +114,49 @@ TEST(WheelDelta, TheBaseGoesAroundAnAxleBehindIt) {
   EXPECT_NEAR(moved.theta_rad(), 1, 1e-12);
 }
 
-TEST(WheelTrack, SaysNothingOfATimeThatItDoesNotReach) {
+// Samples that come later than what is read of them: each motion ends at a pose that was carried
+// on, and the next one begins there.
+RC_GTEST_PROP(WheelTrack, MotionsReadWhileItGrowsAddUpToTheWholeOdometry, (std::uint64_t seed)) {
+  Rng rng(seed);
+  WheelCalibration calibration = WheelCalibration::Zero();
+  calibration(kDelay) = rng.uniform(-0.15, 0.3);
+  const double lateness_s = rng.uniform(0, 0.1);
+  WheelTrack track;
+  Pose2 pose;
+  std::optional<WheelReading> first, last;
+  WheelDelta sum(calibration);
+  double next_sample_s = -0.5;
+  for (int scan = 0; scan <= 30; ++scan) {
+    const double t = 0.1 * scan;
+    for (; next_sample_s + lateness_s < t; next_sample_s += 0.05) {
+      track.add({at(next_sample_s), pose, std::nullopt});
+      // It starts, goes on, turns and brakes.
+      const double speed = next_sample_s < 0.5 ? 0 : next_sample_s < 2 ? 1 : 0.2;
+      pose = pose.plus(0.05 * Eigen::Vector3d(speed, 0, rng.uniform(-1, 1)));
+    }
+    const std::optional<WheelReading> now = track.read(at(t), calibration(kDelay));
+    RC_ASSERT(now.has_value());
+    if (last) sum.append(track.between(*last, *now, calibration));
+    if (!first) first = now;
+    last = now;
+  }
+  RC_ASSERT(difference(sum.raw_T_i_j(), first->T_odom_axle.between(last->T_odom_axle)) < 1e-9);
+}
+
+TEST(WheelTrack, ReadsALongDelayAsFarAsItNeedsWhereTheLastSampleIsFresh) {
   WheelTrack track;
   track.add({at(0), Pose2(), std::nullopt});
   track.add({at(0.1), Pose2(0.1, 0, 0), std::nullopt});
-  EXPECT_TRUE(track.between(at(0), at(0.3), WheelCalibration::Zero()).has_value());
-  EXPECT_FALSE(track.between(at(0), at(0.5), WheelCalibration::Zero()).has_value());
+  EXPECT_NEAR(track.read(at(0.3), 0.2)->T_odom_axle.x_m(), 0.5, 1e-12);
+  EXPECT_FALSE(track.read(at(0.5), -0.2).has_value());
+}
+
+TEST(WheelTrack, OfTwoSamplesWithOneStampTheLaterCounts) {
+  WheelTrack track;
+  for (const double x_m : {0.0, 0.1, 0.2}) {
+    track.add({at(x_m < 0.15 ? x_m : 0.1), Pose2(x_m, 0, 0), std::nullopt});
+  }
+  EXPECT_NEAR(track.read(at(0.2), 0)->T_odom_axle.x_m(), 0.4, 1e-12);
 }
 
 }  // namespace
