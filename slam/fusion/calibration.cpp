@@ -46,9 +46,19 @@ motion::ImuBias imu_bias_walk(const ImuModel& imu, double duration_s) {
   return {gyro, accel, accel, std::max(kGyroScaleWalk * root_s, kMinBiasWalk)};
 }
 
+void add_next_calibration(std::uint32_t number, const motion::WheelCalibration& estimate,
+                          const FusionParams& params, graph::Values& values,
+                          std::vector<graph::NewFactor>& factors) {
+  values.set_wheel_calibration(number + 1, estimate);
+  factors.push_back(
+      graph::WheelCalibrationWalk(number, number + 1, wheel_calibration_walk(params)));
+  factors.push_back(
+      graph::WheelCalibrationPrior(number + 1, estimate, wheel_calibration_sigma(params)));
+}
+
 bool is_wheel_calibration_estimated(const FusionParams& params) {
-  return params.use_wheel_scale || params.use_wheel_turn || params.use_wheel_delay ||
-         params.use_axle_pose;
+  return params.use_wheels && (params.use_wheel_scale || params.use_wheel_turn ||
+                               params.use_wheel_delay || params.use_axle_pose);
 }
 
 }  // namespace corridor::fusion

@@ -3,7 +3,12 @@
 // measures them; where it does not, the robot drives on with what was learnt.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "slam/fusion/fusion_params.hpp"
+#include "slam/graph/any_factor.hpp"
+#include "slam/graph/values.hpp"
 #include "slam/motion/imu_preintegration.hpp"
 #include "slam/motion/wheel_preintegration.hpp"
 
@@ -17,6 +22,13 @@ motion::WheelCalibration wheel_calibration_walk(const FusionParams& params);
 motion::ImuBias imu_bias_sigma(const FusionParams& params);
 // Of the change over a time.
 motion::ImuBias imu_bias_walk(const ImuModel& imu, double duration_s);
+
+// A copy of calibration `number` under the next number, and what ties the two: a walk, and a prior
+// as wide as the first one's around the present estimate, which holds it where the back-end has
+// forgotten the copy before.
+void add_next_calibration(std::uint32_t number, const motion::WheelCalibration& estimate,
+                          const FusionParams& params, graph::Values& values,
+                          std::vector<graph::NewFactor>& factors);
 
 // Whether any part of the wheels' calibration is estimated.
 bool is_wheel_calibration_estimated(const FusionParams& params);

@@ -9,6 +9,16 @@ std::vector<std::string> FusionParams::relations() const {
         fmt::format("coarse_resolution_m = {}: expected more than fine_resolution_m = {}",
                     coarse_resolution_m, fine_resolution_m));
   }
+  const auto expect_no_more = [&](const char* name, double value, const char* limit_name,
+                                  double limit) {
+    if (value <= limit) return;
+    broken.push_back(
+        fmt::format("{} = {}: expected no more than {} = {}", name, value, limit_name, limit));
+  };
+  expect_no_more("match_prior_sigma_m", match_prior_sigma_m, "retry_prior_sigma_m",
+                 retry_prior_sigma_m);
+  expect_no_more("match_prior_sigma_rad", match_prior_sigma_rad, "retry_prior_sigma_rad",
+                 retry_prior_sigma_rad);
   return broken;
 }
 

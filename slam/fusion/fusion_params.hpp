@@ -132,7 +132,7 @@ void FusionParams::visit_structure(FusionParams& p, V& v) {
   v(I{"use_submaps", "", "match against a submap; false: against the last key scan"},
     p.use_submaps);
   v(I{"use_submap_refinement", "",
-      "match the key scans of a finished submap once more, against all of it"},
+      "match the key scans of a finished submap once more, against all of it; needs use_submaps"},
     p.use_submap_refinement);
   v(I{"use_wheel_scale", "", "estimate the common scale error of the wheels"}, p.use_wheel_scale);
   v(I{"use_wheel_turn", "",
@@ -273,7 +273,8 @@ void FusionParams::visit_loops(FusionParams& p, V& v) {
   v(I{"loop_max_window_m", "m", "largest half width of the search", 0.1, 50}, p.loop_max_window_m);
   v(I{"loop_max_window_rad", "rad", "largest half width of the search", 0.01, 3.2},
     p.loop_max_window_rad);
-  v(I{"loop_min_inlier_ratio", "1", "smallest share of explained points of a closure", 0, 1},
+  v(I{"loop_min_inlier_ratio", "1",
+      "smallest share of explained points of a closure found by search", 0, 1},
     p.loop_min_inlier_ratio);
   v(I{"loop_min_agreeing", "1", "closures found by search that must agree in pairs", 1, 100},
     p.loop_min_agreeing);
@@ -291,9 +292,9 @@ void FusionParams::visit_loops(FusionParams& p, V& v) {
       "path from the newest closure on which key scans are matched against old submaps directly", 0,
       100},
     p.loop_link_m);
-  v(I{"loop_sigma_m", "m", "error of a submap's shape, beside a closure's own", 0, 1},
+  v(I{"loop_sigma_m", "m", "error of a submap's shape, beside a closure's own", 1e-6, 1},
     p.loop_sigma_m);
-  v(I{"loop_sigma_rad", "rad", "error of a submap's shape, beside a closure's own", 0, 1},
+  v(I{"loop_sigma_rad", "rad", "error of a submap's shape, beside a closure's own", 1e-6, 1},
     p.loop_sigma_rad);
   v(I{"loop_gate", "1", "chi-square beyond which a closure is taken out after solving", 1, 1e6},
     p.loop_gate);

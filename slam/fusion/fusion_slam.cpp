@@ -13,7 +13,6 @@
 #include "slam/fusion/scan_path.hpp"
 #include "slam/fusion/scan_tracker.hpp"
 #include "slam/fusion/submap_refiner.hpp"
-#include "slam/graph/factors/motion_factors.hpp"
 #include "slam/graph/graph_source.hpp"
 #include "slam/motion/deskew.hpp"
 
@@ -59,7 +58,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   Result<SlamEstimate> finish() override {
     SlamEstimate result;
     if (key_scans_.empty()) return result;
-    if (params_.use_submap_refinement) {
+    if (is_refining()) {
       refine_submaps(refiner_.rest(key_scans_, local_map_, estimate()));
     }
     {
@@ -81,6 +80,8 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
  private:
   const graph::Values& estimate() const { return back_end_->estimate(); }
+  // A single scan has nothing to be refined against.
+  bool is_refining() const { return params_.use_submaps && params_.use_submap_refinement; }
   std::uint32_t last_key() const { return static_cast<std::uint32_t>(key_scans_.size() - 1); }
 
   void keep(backend::BackEndReport report) {
@@ -167,14 +168,13 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
 
   // The calibration changes slowly: now and then it gets a new state.
   void begin_calibration(graph::Values& values, std::vector<graph::NewFactor>& factors) {
-    if (!is_wheel_calibration_estimated(params_) ||
+    if (!is_wheel_calibration_estimated(params_) || !verdict_.are_wheels_used ||
         path_m_ - calibration_path_m_ < params_.calibration_interval_m) {
       return;
     }
     calibration_path_m_ = path_m_;
-    values.set_wheel_calibration(calibration_ + 1, estimate().wheel_calibration(calibration_));
-    factors.push_back(graph::WheelCalibrationWalk(calibration_, calibration_ + 1,
-                                                  wheel_calibration_walk(params_)));
+    add_next_calibration(calibration_, estimate().wheel_calibration(calibration_), params_, values,
+                         factors);
     ++calibration_;
   }
 
@@ -258,7 +258,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
         {scan, std::move(points), tracked.match && tracked.num_outvoted == 0, path_m_, twist_});
     T_map_base_ = estimate().pose(last_key());
     extend_map();
-    if (params_.use_submap_refinement) {
+    if (is_refining()) {
       if (verdict_.lidar_factor) {
         matched.set_factor(last_key(), last_report_.new_factor_ids[*verdict_.lidar_factor],
                            tracked.match->num_observable);
@@ -266,6 +266,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
       refine_submaps(refiner_.next(kRefinedPerKeyScan, key_scans_, local_map_, estimate()));
       T_map_base_ = estimate().pose(last_key());
     }
+    release_submaps();
     begin_interval(scan.stamp);
   }
 
@@ -291,7 +292,7 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     frame.set_pose(started->frame(), estimate().pose(last_key()));
     const auto ids =
         back_end_->add({frame_factor(*started, key_scans_.back(), robot_, params_)}, frame);
-    if (params_.use_submap_refinement) started->set_factor(last_key(), ids.front(), 0);
+    if (is_refining()) started->set_factor(last_key(), ids.front(), 0);
   }
 
   void refine_submaps(std::vector<RefinedPlace> places) {
@@ -304,6 +305,12 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
     }
     const auto stage = stage_clock().enter(Stage::kOptimise);
     keep(back_end_->update(std::move(factors), {}, replaced));
+  }
+
+  // Finished submaps wait for their refinement, and with loop closing for a return.
+  void release_submaps() {
+    if (params_.use_loop_closing) return;
+    local_map_.release(is_refining() ? refiner_.num_done() : local_map_.finished().size());
   }
 
   void begin_interval(Timestamp stamp) {

@@ -1,7 +1,8 @@
 #include "slam/fusion/local_map.hpp"
 
-namespace corridor::fusion {
+#include "slam/core/expect.hpp"
 
+namespace corridor::fusion {
 namespace {
 
 // Key scans and frames of submaps are poses of one graph: the frames have numbers from here on.
@@ -11,6 +12,7 @@ constexpr std::uint32_t kFirstFrame = 1U << 20U;
 
 Submap* LocalMap::insert(std::uint32_t key, const graph::Values& estimate,
                          std::span<const Eigen::Vector2d> points_base_m) {
+  CORRIDOR_EXPECT(key < kFirstFrame);
   Submap* started = nullptr;
   const int full = params_.use_submaps ? params_.submap_key_scans : 1;
   if (submaps_.empty() || submaps_.back()->num_scans() >= (full + 1) / 2) {
@@ -29,6 +31,11 @@ Submap* LocalMap::insert(std::uint32_t key, const graph::Values& estimate,
   }
   while (active_ + 1 < submaps_.size() && submaps_[active_]->num_scans() >= full) ++active_;
   return started;
+}
+
+void LocalMap::release(std::size_t num) {
+  CORRIDOR_EXPECT(num <= active_);
+  for (; num_released_ < num; ++num_released_) submaps_[num_released_].reset();
 }
 
 }  // namespace corridor::fusion

@@ -22,20 +22,19 @@ class LocalMap {
   // The submap new scans are matched against. Requires one insert().
   [[nodiscard]] Submap& active() { return *submaps_[active_]; }
   [[nodiscard]] const Submap& active() const { return *submaps_[active_]; }
-  // Finished ones, oldest first.
+  // Finished ones, oldest first; nullptr where released.
   [[nodiscard]] std::span<const std::unique_ptr<Submap>> finished() const {
     return {submaps_.data(), active_};
   }
-  // The active one and what comes after it.
-  [[nodiscard]] std::span<const std::unique_ptr<Submap>> growing() const {
-    return std::span(submaps_).subspan(active_);
-  }
+  // Gives up the first `num` of the finished ones, which nobody will look at again.
+  void release(std::size_t num);
   [[nodiscard]] std::size_t num_submaps() const { return submaps_.size(); }
 
  private:
   const FusionParams& params_;
   std::vector<std::unique_ptr<Submap>> submaps_;
   std::size_t active_ = 0;
+  std::size_t num_released_ = 0;
 };
 
 }  // namespace corridor::fusion

@@ -53,7 +53,6 @@ Submap* LoopCloser::nearest_candidate(std::span<const KeyScan> key_scans, LocalM
   Submap* nearest = nullptr;
   double nearest_m = radius_m;
   for (const auto& submap : local_map.finished()) {
-    if (submap == nullptr) continue;
     if (now.path_m - key_scans[submap->last_key()].path_m < params_.loop_min_path_m) continue;
     const Pose2& T_map_submap = estimate.pose(submap->frame());
     for (const SubmapScan& scan : submap->scans()) {
@@ -122,6 +121,8 @@ std::vector<LoopClosure> LoopCloser::agreeing(const graph::Values& estimate) con
   if (num_agreeing < params_.loop_min_agreeing || span_m < params_.loop_min_span_m) return {};
   const bool is_firm = num_agreeing >= kFirmAgreeing * params_.loop_min_agreeing &&
                        span_m >= kFirmSpan * params_.loop_min_span_m;
+  // What odometry has refuted it would refute again, until it is firm.
+  if (was_refuted_ && !is_firm) return {};
   for (LoopClosure& closure : closures) closure.is_firm = is_firm;
   return closures;
 }
@@ -146,6 +147,7 @@ std::vector<LoopClosure> LoopCloser::search(std::span<const KeyScan> key_scans, 
   std::erase_if(pending_, [&](const LoopClosure& closure) {
     return now.path_m - closure.path_m > params_.loop_memory_m;
   });
+  if (pending_.empty()) was_refuted_ = false;
   pending_.push_back(std::move(*found));
   return agreeing(estimate);
 }

@@ -37,7 +37,10 @@ class LoopCloser {
   std::vector<LoopClosure> search(std::span<const KeyScan> key_scans, LocalMap& local_map,
                                   const graph::Values& estimate);
   // Path at which the newest closure in the graph was found: the window grows from there.
-  void set_last_closure(double path_m) { last_closure_path_m_ = path_m; }
+  void set_last_closure(double path_m) {
+    was_refuted_ = path_m <= last_closure_path_m_;
+    last_closure_path_m_ = path_m;
+  }
   [[nodiscard]] int num_candidates() const { return num_candidates_; }
 
  private:
@@ -56,6 +59,7 @@ class LoopCloser {
   double last_search_path_m_ = 0;
   double last_closure_path_m_ = 0;
   std::vector<LoopClosure> pending_;  // found by search, the last loop_memory_m, in order of path
+  bool was_refuted_ = false;          // what it gave last did not stay in the graph
   int num_candidates_ = 0;
 };
 

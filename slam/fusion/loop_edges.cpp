@@ -46,6 +46,12 @@ LoopEdges::Outcome LoopEdges::add(std::span<const LoopClosure> closures,
   return solves;
 }
 
+double LoopEdges::last_path_m() const {
+  double last_m = 0;
+  for (const Edge& edge : edges_) last_m = std::max(last_m, edge.path_m);
+  return last_m;
+}
+
 void LoopEdges::remove_false_ones(backend::BackEnd& back_end, Outcome& solves) {
   const auto chi2 = [&](const Edge& edge) {
     // What a back-end has taken into a prior cannot be taken out any more.

@@ -28,7 +28,7 @@ class LoopEdges {
   [[nodiscard]] std::size_t num_in_graph() const { return edges_.size(); }
   [[nodiscard]] int num_removed() const { return num_removed_; }
   // Path at which the newest closure in the graph was found; 0 without one.
-  [[nodiscard]] double last_path_m() const { return edges_.empty() ? 0 : edges_.back().path_m; }
+  [[nodiscard]] double last_path_m() const;
 
  private:
   struct Edge {
@@ -40,7 +40,7 @@ class LoopEdges {
   void remove_false_ones(backend::BackEnd& back_end, Outcome& solves);
 
   const FusionParams& params_;
-  std::vector<Edge> edges_;  // those in the graph, in order of time
+  std::vector<Edge> edges_;  // those in the graph, in the order in which they came
   int num_removed_ = 0;
 };
 

@@ -8,11 +8,11 @@
 namespace corridor::fusion {
 graph::NewFactor frame_factor(Submap& submap, const KeyScan& first, const RobotModel& robot,
                               const FusionParams& params) {
-  const auto match = match_again(submap, first.points_base_m, Pose2(), robot, params);
-  const Eigen::Matrix3d seen =
-      match ? match->information : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+  const matching::ObservableMatch match =
+      match_again(submap, first.points_base_m, Pose2(), robot, params)
+          .value_or(matching::ObservableMatch{});
   return place_factor(submap.frame(), submap.scans().front().key, Pose2(),
-                      matching::defining_information(seen, params.observability));
+                      matching::defining_information(match, params.observability));
 }
 
 void SubmapRefiner::refine(Submap& submap, std::size_t scan, std::span<const KeyScan> key_scans,
@@ -25,7 +25,7 @@ void SubmapRefiner::refine(Submap& submap, std::size_t scan, std::span<const Key
   // What saw less would leave undetermined what the wheels do not hold either.
   if (!match || match->num_observable < std::max(placed.num_observable, 1)) return;
   const Eigen::Matrix3d information =
-      scan == 0 ? matching::defining_information(match->information, params_.observability)
+      scan == 0 ? matching::defining_information(*match, params_.observability)
                 : match->information;
   places.push_back(
       {place_factor(submap.frame(), placed.key, match->T_map_base, information), placed.factor});
@@ -48,10 +48,10 @@ std::vector<RefinedPlace> SubmapRefiner::rest(std::span<const KeyScan> key_scans
                                               LocalMap& local_map, const graph::Values& estimate) {
   std::vector<RefinedPlace> places =
       next(std::numeric_limits<int>::max(), key_scans, local_map, estimate);
-  for (const auto& submap : local_map.growing()) {
-    for (std::size_t scan = 0; scan < submap->scans().size(); ++scan) {
-      refine(*submap, scan, key_scans, estimate, places);
-    }
+  Submap& active = local_map.active();
+  if (2 * active.num_scans() < params_.submap_key_scans) return places;
+  for (std::size_t scan = 0; scan < active.scans().size(); ++scan) {
+    refine(active, scan, key_scans, estimate, places);
   }
   return places;
 }

@@ -37,9 +37,12 @@ class SubmapRefiner {
   // The next places of finished submaps, of at most max_scans scans.
   std::vector<RefinedPlace> next(int max_scans, std::span<const KeyScan> key_scans,
                                  LocalMap& local_map, const graph::Values& estimate);
-  // Those that are left when nothing more comes, of growing submaps too.
+  // Those that are left when nothing more comes, of the active submap too: a younger one consists
+  // of too few scans to tell one of them more than it says itself.
   std::vector<RefinedPlace> rest(std::span<const KeyScan> key_scans, LocalMap& local_map,
                                  const graph::Values& estimate);
+  // Finished submaps that it is through with.
+  [[nodiscard]] std::size_t num_done() const { return submap_; }
 
  private:
   void refine(Submap& submap, std::size_t scan, std::span<const KeyScan> key_scans,

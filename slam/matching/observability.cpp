@@ -79,17 +79,15 @@ ObservableMatch observable_part(const MatchResult& match, const ObservabilityPar
   return part;
 }
 
-Eigen::Matrix3d defining_information(const Eigen::Matrix3d& seen,
+Eigen::Matrix3d defining_information(const ObservableMatch& match,
                                      const ObservabilityParams& params) {
   const Eigen::Vector3d unit = floor_sigma(params);
   const Eigen::Vector3d per_unit = unit.cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
-      Eigen::Matrix3d(unit.asDiagonal() * seen * unit.asDiagonal()));
+      Eigen::Matrix3d(unit.asDiagonal() * match.information * unit.asDiagonal()));
   Eigen::Vector3d information = eigen.eigenvalues();
-  // A seen direction has at least this, see ObservabilityParams.
-  for (double& value : information) {
-    if (value < 1e-3) value = 1 / kDefinition;
-  }
+  // Eigenvalues ascend: the unseen directions, with none, come first.
+  information.head(3 - match.num_observable).setConstant(1 / kDefinition);
   const Eigen::Matrix3d filled =
       eigen.eigenvectors() * information.asDiagonal() * eigen.eigenvectors().transpose();
   return per_unit.asDiagonal() * filled * per_unit.asDiagonal();

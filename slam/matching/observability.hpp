@@ -36,9 +36,9 @@ struct ObservabilityParams {
 
 struct ObservableMatch {
   Pose2 T_map_base;  // the scan's own optimum in the directions it sees, the prior in the others
-  Eigen::Matrix3d
-      information;         // 3x3, base, order (x_m, y_m, theta_rad); zero along unseen directions
-  int num_observable = 0;  // directions, 0 to 3
+  // 3x3, base, order (x_m, y_m, theta_rad); zero along unseen directions.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  int num_observable = 0;                                             // directions, 0 to 3
   Eigen::Vector2d weakest_direction_base = Eigen::Vector2d::UnitX();  // of translation
   double weakest_information_ratio = 0;
 };
@@ -53,9 +53,9 @@ Eigen::Vector3d floor_sigma(const ObservabilityParams& params);
 // match.is_usable().
 Eigen::Matrix3d unseen_information(const MatchResult& match, const ObservabilityParams& params);
 
-// The information `seen` of an observable match, 3x3, base, and along the directions in which it is
-// zero that of a definition, a tenth of the floors: for a frame that is where the scan is.
-Eigen::Matrix3d defining_information(const Eigen::Matrix3d& seen,
+// The match's information, 3x3, base, and along the directions that it does not see that of a
+// definition, a tenth of the floors: for a frame that is where the scan is.
+Eigen::Matrix3d defining_information(const ObservableMatch& match,
                                      const ObservabilityParams& params);
 
 // Requires match.is_usable().

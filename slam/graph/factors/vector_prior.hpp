@@ -1,4 +1,4 @@
-// Priors on the variables that are plain vectors: velocity, bias, wheel scale.
+// Priors on the variables that are plain vectors: velocity, bias, wheel calibration.
 #pragma once
 
 #include <array>

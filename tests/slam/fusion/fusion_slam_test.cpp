@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "datasets/simulation/simulate.hpp"
+#include "slam/backend/fixed_lag/fixed_lag.hpp"
 #include "slam/backend/gauss_newton/levenberg_marquardt.hpp"
+#include "slam/backend/isam2/isam2.hpp"
 #include "slam/graph/graph_source.hpp"
 #include "tests/support/synthetic_scan.hpp"
 
@@ -26,9 +28,10 @@ struct Outcome {
   int num_slips = 0, num_degenerate = 0;
 };
 
-Outcome run(const FusionParams& params, const SensorLog& log) {
-  const auto system = make_fusion("fusion", params, log.robot,
-                                  backend::make_least_squares(backend::LeastSquaresParams{}));
+Outcome run(
+    const FusionParams& params, const SensorLog& log,
+    std::unique_ptr<backend::BackEnd> back_end = backend::make_isam2(backend::Isam2Params{})) {
+  const auto system = make_fusion("fusion", params, log.robot, std::move(back_end));
   Outcome result;
   for (const SensorEvent& event : log.events) {
     const auto report = system->step(event);
@@ -79,6 +82,65 @@ TEST(FusionSlam, LosesLessThanHalfOfWhatThePublishedMethodLoses) {
     published_m += position_rmse_m(run(fusion_paper_params(), log).estimate.trajectory, *log.truth);
   }
   EXPECT_LT(fusion_m, 0.5 * published_m);
+}
+
+// The incremental solution and the batch one of the same graph; their matches need not be the same.
+TEST(FusionSlam, ErrsNoMoreWithOneBackEndThanWithAnother) {
+  const SensorLog log = corridor_log("paper-corridor", 903);
+  const Outcome incremental = run({}, log);
+  const Outcome batch = run({}, log, backend::make_least_squares(backend::LeastSquaresParams{}));
+  const Outcome window = run({}, log, backend::make_fixed_lag({}));
+  EXPECT_EQ(incremental.estimate.counters.at("failed_solves"), 0);
+  EXPECT_EQ(window.estimate.counters.at("failed_solves"), 0);
+  constexpr double kBackEndTolerance_m = 0.01;
+  EXPECT_NEAR(position_rmse_m(incremental.estimate.trajectory, *log.truth),
+              position_rmse_m(batch.estimate.trajectory, *log.truth), kBackEndTolerance_m);
+  EXPECT_LT(position_rmse_m(window.estimate.trajectory, *log.truth), kCorridorTolerance_m);
+}
+
+TEST(FusionSlam, FindsTheWheelsErrorsWhereTheLidarSeesAlongTheCorridor) {
+  for (std::uint64_t seed = 904; seed < 907; ++seed) {
+    auto scenario = simulation::read_scenario(std::string(CORRIDOR_SOURCE_DIR) +
+                                              "/datasets/scenarios/paper-corridor-12m.toml");
+    ASSERT_TRUE(scenario.has_value());
+    const simulation::Simulated simulated = simulation::simulate(*scenario, seed).value();
+    const Outcome result = run({}, simulated.log);
+    const auto& wheels = simulated.truth.wheels;
+    const double track_m = simulated.log.robot.wheels.track_m;
+    // Measured = true path times the wheel's scale.
+    const double scale = 2 / (wheels.left_scale + wheels.right_scale) - 1;
+    const double unbalance_radpm = (wheels.left_scale - wheels.right_scale) / track_m;
+    EXPECT_NEAR(result.estimate.counters.at("wheel_scale"), scale, 1e-3) << seed;
+    EXPECT_NEAR(result.estimate.counters.at("wheel_unbalance_radpm"), unbalance_radpm, 5e-3)
+        << seed;
+    EXPECT_NEAR(result.estimate.counters.at("axle_x_m"), 0, 5e-3) << seed;
+    EXPECT_NEAR(result.estimate.counters.at("wheel_delay_s"), 0, 5e-3) << seed;
+  }
+}
+
+// A window that forgets what no factor names: the wheels' calibration, while nobody uses wheels.
+TEST(FusionSlam, AWindowHoldsWithoutWheels) {
+  FusionParams params;
+  params.use_wheels = false;
+  backend::FixedLagParams window;
+  window.lag = 30;
+  const Outcome result =
+      run(params, corridor_log("paper-corridor-12m", 904), backend::make_fixed_lag(window));
+  EXPECT_EQ(result.estimate.counters.at("failed_solves"), 0);
+}
+
+// Wheels that fall silent for longer than the window is, and come back.
+TEST(FusionSlam, AWindowHoldsWhereTheWheelsComeBack) {
+  SensorLog log = corridor_log("paper-corridor-12m", 904);
+  const Timestamp begin = log.events.empty() ? Timestamp{} : stamp_of(log.events.front());
+  std::erase_if(log.events, [&](const SensorEvent& event) {
+    const double t = seconds_between(begin, stamp_of(event));
+    return std::holds_alternative<WheelSample>(event) && t > 15 && t < 45;
+  });
+  backend::FixedLagParams window;
+  window.lag = 30;
+  const Outcome result = run({}, log, backend::make_fixed_lag(window));
+  EXPECT_EQ(result.estimate.counters.at("failed_solves"), 0);
 }
 
 TEST(FusionSlam, KeepsTheCorridorsLengthWhereScanMatchingCannotSeeIt) {
@@ -225,6 +287,13 @@ TEST(FusionSlam, OneScanGivesOnePoseAtTheOrigin) {
   const Outcome result = run({}, room_log(true, true, 1));
   ASSERT_EQ(result.estimate.trajectory.size(), 1u);
   EXPECT_LT(result.estimate.trajectory.front().T_map_base.log().norm(), 1e-9);
+}
+
+TEST(FusionSlam, WithoutSubmapsThereIsNothingToRefine) {
+  FusionParams params;
+  params.use_submaps = false;
+  const Outcome result = run(params, room_log(true, true, 40));
+  EXPECT_EQ(result.estimate.trajectory.size(), 40u);
 }
 
 TEST(FusionSlam, NoEventsGiveAnEmptyTrajectory) {

@@ -63,13 +63,24 @@ TEST_F(LoopCloserTest, OneThatOdometryContradictsIsNotAmongThoseThatAgree) {
 
 TEST_F(LoopCloserTest, ManyInOnePlaceCloseNothing) {
   drive_.params.loop_interval_m = 0.01;
-  for (int i = 0; i < 8; ++i) {
+  drive_.params.loop_min_span_m = 0.75;
+  for (int i = 0; i < 9; ++i) {
     const auto key = static_cast<std::uint32_t>(drive_.key_scans.size());
     drive_.add(back(0), 20 + 0.1 * i);
-    drive_.values.set_pose(key, drift_);
-    const bool is_long_enough = 0.1 * i >= drive_.params.loop_min_span_m;
-    EXPECT_EQ(closer_.search(drive_.key_scans, drive_.map, drive_.values).empty(), !is_long_enough);
+    drive_.values.set_pose(key, {back(0).x_m() + drift_.x_m(), drift_.y_m(), drift_.theta_rad()});
+    const auto found = closer_.search(drive_.key_scans, drive_.map, drive_.values);
+    EXPECT_EQ(found.size(), i < 8 ? 0u : 9u) << i;
   }
+}
+
+TEST_F(LoopCloserTest, WhatWasRefutedIsGivenAgainOnceItIsFirm) {
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(come_back(i, drift_).empty(), i < 2);
+  closer_.set_last_closure(0);  // none of it stayed
+  EXPECT_TRUE(come_back(3, drift_).empty());
+  EXPECT_TRUE(come_back(4, drift_).empty());
+  const std::vector<LoopClosure> found = come_back(5, drift_);
+  ASSERT_EQ(found.size(), 6u);
+  EXPECT_TRUE(found.front().is_firm);
 }
 
 TEST_F(LoopCloserTest, ASetTwiceAsLargeAndThreeTimesAsLongIsFirm) {

@@ -73,6 +73,29 @@ TEST_F(LoopEdgesTest, ALaterClosureCanProveAnEarlierOneFalse) {
   EXPECT_NEAR(back_end_->estimate().pose(9).x_m(), 9, 1e-3);
 }
 
+TEST_F(LoopEdgesTest, AFirmClosureStaysHoweverMuchTheRestContradictsIt) {
+  std::vector<LoopClosure> closures = {closure(10, 0)};
+  closures.front().is_firm = true;
+  (void)edges_.add(closures, *back_end_);
+  EXPECT_EQ(edges_.num_in_graph(), 1u);
+  EXPECT_EQ(edges_.num_removed(), 0);
+}
+
+TEST_F(LoopEdgesTest, TheNewestClosureIsTheFarthestAlongThePathAndNotTheLastAdded) {
+  (void)edges_.add(std::vector{closure(10, 10)}, *back_end_);
+  (void)edges_.add(std::vector{closure(8, 8)}, *back_end_);
+  EXPECT_EQ(edges_.last_path_m(), 10);
+}
+
+// The error of the submap's shape, 2 cm, on top of the closure's own 1 cm.
+TEST_F(LoopEdgesTest, AClosureWeighsWhatItsOwnErrorAndTheSubmapsAllow) {
+  (void)edges_.add(std::vector{closure(10, 10.1)}, *back_end_);
+  const double variance_m2 = params_.loop_sigma_m * params_.loop_sigma_m + 1e-4;
+  const double odometry_m2 = 10 * 0.05 * 0.05;
+  const double expected_m = 10 + 0.1 * odometry_m2 / (odometry_m2 + variance_m2);
+  EXPECT_NEAR(back_end_->estimate().pose(10).x_m(), expected_m, 1e-4);
+}
+
 TEST_F(LoopEdgesTest, AKeyScanIsClosedOnce) {
   const std::vector<LoopClosure> closures = {closure(10, 10)};
   (void)edges_.add(closures, *back_end_);
