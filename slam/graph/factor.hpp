@@ -30,6 +30,12 @@ namespace corridor::graph {
 template <class F>
 inline constexpr bool kIsFixed = F::kRows != Eigen::Dynamic;
 
+// Of a type that says kIsLinear = true the Jacobian is the same everywhere.
+template <class F>
+inline constexpr bool kIsLinear = requires {
+  requires F::kIsLinear;
+};
+
 template <class F>
 inline constexpr std::size_t kNumKeys = F::kKinds.size();
 

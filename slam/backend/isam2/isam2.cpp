@@ -335,7 +335,7 @@ class Isam2 final : public BackEnd {
     tree_.forget_changes();
   }
 
-  // delta^T H_vv delta.
+  // Of delta, in standard deviations.
   double squared_step(int variable) {
     if (information_.state(variable) == InformationTable::State::kUnknown) {
       information_.reset(variable);
@@ -344,7 +344,8 @@ class Isam2 final : public BackEnd {
                         information_.H(variable));
       }
     }
-    return information_.squared_length(variable, tree_.delta(variable));
+    return information_.squared_length(variable, index_.keys()[to_index(variable)].kind,
+                                       tree_.delta(variable));
   }
 
   BackEndReport finished(BackEndReport& report) {

@@ -26,7 +26,8 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
         factor, J,
         [&](std::size_t a, const auto& J_a) {
           front.add_gradient(tree.row_of(variables[a]), (J_a.transpose() * r).eval());
-          if (information.state(variables[a]) == InformationTable::State::kBeingSummed) {
+          if (!graph::kIsLinear<F> &&
+              information.state(variables[a]) == InformationTable::State::kBeingSummed) {
             add_square(J_a, information.H(variables[a]));
           }
         },
@@ -40,6 +41,7 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
 void add_information(const graph::FactorGraph& graph, graph::FactorId id,
                      const graph::Values& values, graph::Key variable, InformationTable::Block H) {
   graph.visit(id, [&]<class F>(const F& factor, const graph::RobustKernel& kernel) {
+    if (graph::kIsLinear<F>) return;
     graph::Residual<F> r;
     graph::Jacobian<F> J;
     linearize_weighted(factor, kernel, values, r, J);

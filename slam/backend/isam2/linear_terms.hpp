@@ -1,5 +1,5 @@
-// Factors as terms of a quadratic function: what they add to a front and to a variable's
-// information.
+// Factors as terms of a quadratic function: what they add to a front and, where it depends on the
+// point of linearisation, to a variable's information.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ void add_linearized(const graph::FactorGraph& graph, graph::FactorId id,
                     const graph::Values& values, std::span<const int> variables,
                     const BayesTree& tree, Front& front, InformationTable& information);
 
-// Linearises a factor and adds its J_v^T J_v of one variable.
+// Linearises a factor and adds its J_v^T J_v of one variable. A linear factor adds none.
 void add_information(const graph::FactorGraph& graph, graph::FactorId id,
                      const graph::Values& values, graph::Key variable, InformationTable::Block H);
 

@@ -13,7 +13,10 @@ void InformationTable::add_variable(int variable, int dimension) {
   reset(variable);
 }
 
-double InformationTable::squared_length(int variable, const double* step) {
+double InformationTable::squared_length(int variable, graph::VariableKind kind,
+                                        const double* step) {
+  using Kind = graph::VariableKind;
+  if (kind == Kind::kVelocity || kind == Kind::kBias) return 0;
   const Block block = H(variable);
   const Eigen::Map<const Eigen::VectorXd> x(step, block.rows());
   return x.dot(block.lazyProduct(x));

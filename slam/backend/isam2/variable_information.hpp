@@ -1,10 +1,13 @@
 // What the factors of each variable say on it alone, H_vv = sum of J_v^T J_v: the measure of its
-// step from its linearisation point, in standard deviations.
+// step from its linearisation point, in standard deviations. Linear factors do not count: they say
+// the same at every point.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <vector>
+
+#include "slam/graph/key.hpp"
 
 namespace corridor::backend {
 
@@ -22,8 +25,8 @@ class InformationTable {
     const Entry& own = entry(variable);
     return {&numbers_[own.begin], own.dimension, own.dimension};
   }
-  // step^T H step.
-  [[nodiscard]] double squared_length(int variable, const double* step);
+  // step^T H step; 0 for velocities and biases, in which every factor is linear.
+  [[nodiscard]] double squared_length(int variable, graph::VariableKind kind, const double* step);
 
   // A factor has gone, or weighs otherwise: what is known is of no use.
   void forget(int variable);

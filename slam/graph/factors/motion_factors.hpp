@@ -70,6 +70,7 @@ class VectorWalk {
   static constexpr std::string_view kName =
       kKind == VariableKind::kBias ? "bias_walk" : "calibration_walk";
   static constexpr int kRows = dimension_of(kKind);
+  static constexpr bool kIsLinear = true;
   static constexpr std::array kKinds = {kKind, kKind};
   using Vector = FixedVector<kRows>;
 

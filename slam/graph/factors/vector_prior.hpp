@@ -15,6 +15,7 @@ class VectorPrior {
  public:
   static constexpr std::string_view kName = "vector_prior";
   static constexpr int kRows = dimension_of(kKind);
+  static constexpr bool kIsLinear = true;
   static constexpr std::array kKinds = {kKind};
   using Vector = FixedVector<kRows>;
 
