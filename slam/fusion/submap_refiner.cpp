@@ -1,6 +1,7 @@
 #include "slam/fusion/submap_refiner.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "slam/fusion/scan_tracker.hpp"
@@ -36,10 +37,12 @@ std::vector<RefinedPlace> SubmapRefiner::next(int max_scans, std::span<const Key
   std::vector<RefinedPlace> places;
   for (int i = 0; i < max_scans && submap_ < local_map.finished().size(); ++i) {
     Submap& submap = *local_map.finished()[submap_];
-    refine(submap, scan_, key_scans, estimate, places);
+    refine(submap, scan_, key_scans, estimate, waiting_);
     if (++scan_ < submap.scans().size()) continue;
     scan_ = 0;
     ++submap_;
+    std::move(waiting_.begin(), waiting_.end(), std::back_inserter(places));
+    waiting_.clear();
   }
   return places;
 }

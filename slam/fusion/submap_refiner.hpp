@@ -34,7 +34,8 @@ class SubmapRefiner {
   SubmapRefiner(const RobotModel& robot, const FusionParams& params)
       : robot_(robot), params_(params) {}
 
-  // The next places of finished submaps, of at most max_scans scans.
+  // Goes on with the finished submaps by at most max_scans scans. Returns the places in those that
+  // it is through with now, all at once: each batch has the solver go back as far as the submap.
   std::vector<RefinedPlace> next(int max_scans, std::span<const KeyScan> key_scans,
                                  LocalMap& local_map, const graph::Values& estimate);
   // Those that are left when nothing more comes, of the active submap too: a younger one consists
@@ -51,6 +52,7 @@ class SubmapRefiner {
   const RobotModel& robot_;
   const FusionParams& params_;
   std::size_t submap_ = 0, scan_ = 0;  // the next one
+  std::vector<RefinedPlace> waiting_;  // in that submap
 };
 
 }  // namespace corridor::fusion
