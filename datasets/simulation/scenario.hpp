@@ -24,6 +24,7 @@ struct Scenario {
   ImuParams imu;
   DriveParams drive;
   SlipParams slip;
+  OutageParams outages;
   DrawParams draw;
   PeopleParams people;
 };

@@ -118,6 +118,20 @@ struct SlipParams {
   std::vector<std::string> relations() const;
 };
 
+// Times in which a sensor says nothing, each of the three at its own: a cable, a driver, a bus.
+struct OutageParams {
+  double duration_s = 0;
+  double interval_s = 15;
+
+  static void visit(auto& p, auto&& v) {
+    v(ParamInfo{"duration_s", "s", "length of each; 0 = none", 0, 100}, p.duration_s);
+    v(ParamInfo{"interval_s", "s",
+                "mean of the drawn time from the end of one, or the log's begin, to the next", 0.1,
+                1e6},
+      p.interval_s);
+  }
+};
+
 // People who walk up and down the route, round and opaque. They step aside for the robot.
 struct PeopleParams {
   int num_people = 0;

@@ -231,6 +231,7 @@ std::vector<std::string> violations(const Scenario& scenario) {
   append("imu", scenario.imu, found);
   append("drive", scenario.drive, found);
   append("slip", scenario.slip, found);
+  append("outages", scenario.outages, found);
   append("draw", scenario.draw, found);
   append("people", scenario.people, found);
   if (scenario.name.empty()) found.push_back("name = \"\": expected a name");

@@ -19,6 +19,7 @@ void for_each_section(Scenario& scenario, Visitor&& visitor) {
   visitor("imu", scenario.imu);
   visitor("drive", scenario.drive);
   visitor("slip", scenario.slip);
+  visitor("outages", scenario.outages);
   visitor("draw", scenario.draw);
   visitor("people", scenario.people);
 }

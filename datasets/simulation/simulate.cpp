@@ -87,10 +87,10 @@ class Recorder {
         encoders_(scenario.wheels, simulated.log.robot.wheels, simulated.truth.wheels,
                   rng.stream("wheels").stream("noise")),
         imu_(scenario.imu, simulated.truth.imu, drive.step_s, rng.stream("imu")),
-        lidar_path_(scenario.lidar.message, simulated.truth.lidar_time_offset_s,
+        lidar_path_(scenario.lidar.message, scenario.outages, simulated.truth.lidar_time_offset_s,
                     rng.stream("lidar messages")),
-        wheel_path_(scenario.wheels.message, 0, rng.stream("wheel messages")),
-        imu_path_(scenario.imu.message, simulated.truth.imu_time_offset_s,
+        wheel_path_(scenario.wheels.message, scenario.outages, 0, rng.stream("wheel messages")),
+        imu_path_(scenario.imu.message, scenario.outages, simulated.truth.imu_time_offset_s,
                   rng.stream("imu messages")) {}
 
   // Whether any scan's beam has met a wall: else the route lies outside of its world.
