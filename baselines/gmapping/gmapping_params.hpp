@@ -36,6 +36,8 @@ struct GmappingParams {
   // Switches of the `as-published` profile; false is what the original does.
   bool sample_proposal = false;
   bool require_free_front = false;
+  // For a robot with a gyro; the original knows none.
+  bool use_gyro_odometry = false;
   // The lattice around the optimum that the sampled proposal is fitted to.
   double proposal_linear_range_m = 0.01;      // llsamplerange
   double proposal_linear_step_m = 0.01;       // llsamplestep
@@ -44,6 +46,9 @@ struct GmappingParams {
 
   template <class V>
   static void visit(GmappingParams& p, V&& v) {
+    v(ParamInfo{"use_gyro_odometry", "",
+                "turns of the odometry from an EKF of wheels and gyro; the original has no gyro"},
+      p.use_gyro_odometry);
     v(ParamInfo{"num_particles", "1", "number of particles", 1, 100000}, p.num_particles);
     v(ParamInfo{"cell_size_m", "m", "side of a map cell", 0.005, 1}, p.cell_size_m);
     v(ParamInfo{"linear_update_m", "m",

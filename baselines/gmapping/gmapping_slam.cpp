@@ -6,6 +6,7 @@
 #include "baselines/gmapping/published_map.hpp"
 #include "baselines/gmapping/scan_points.hpp"
 #include "slam/motion/dense_path.hpp"
+#include "slam/motion/gyro_odometry.hpp"
 #include "slam/motion/wheel_track.hpp"
 
 namespace corridor::gmapping {
@@ -41,12 +42,20 @@ class UpdateGate {
 class GmappingSlam final : public SlamSystem {
  public:
   GmappingSlam(const GmappingParams& params, const RobotModel& robot, Rng rng, int num_threads)
-      : params_(params), robot_(robot), gate_(params), filter_(params, rng, num_threads) {}
+      : params_(params),
+        robot_(robot),
+        gyro_odometry_(robot),
+        gate_(params),
+        filter_(params, rng, num_threads) {}
 
   [[nodiscard]] std::string_view name() const override { return "gmapping"; }
 
   Result<StepReport> on_event(const SensorEvent& event) override {
-    if (const auto* wheel = std::get_if<WheelSample>(&event)) wheel_track_.add(*wheel);
+    if (const auto* wheel = std::get_if<WheelSample>(&event)) {
+      wheel_track_.add(params_.use_gyro_odometry ? gyro_odometry_.corrected(*wheel) : *wheel);
+    }
+    const auto* imu = std::get_if<ImuSample>(&event);
+    if (imu != nullptr && params_.use_gyro_odometry) gyro_odometry_.add(*imu);
     const auto* scan = std::get_if<LaserScan>(&event);
     StepReport report;
     report.stamp = stamp_of(event);
@@ -136,6 +145,7 @@ class GmappingSlam final : public SlamSystem {
 
   GmappingParams params_;
   RobotModel robot_;
+  motion::GyroOdometry gyro_odometry_;
   UpdateGate gate_;
   ParticleFilter filter_;
   motion::WheelTrack wheel_track_;

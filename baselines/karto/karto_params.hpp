@@ -11,6 +11,7 @@ namespace corridor::karto {
 
 struct KartoParams {
   // Key scans and the running buffer.
+  bool use_gyro_odometry = false;
   double min_travel_distance_m = 0.2;
   double min_travel_heading_rad = 0.174;  // 10 deg, rounded as shipped
   double min_time_interval_s = 3600;
@@ -79,6 +80,9 @@ struct KartoParams {
  private:
   template <class V>
   static void visit_key_scans(KartoParams& p, V& v) {
+    v(ParamInfo{"use_gyro_odometry", "",
+                "turns of the odometry from an EKF of wheels and gyro; the original has no gyro"},
+      p.use_gyro_odometry);
     v(ParamInfo{"min_travel_distance_m", "m",
                 "odometry distance since the last key scan that makes a new one", 0, 100},
       p.min_travel_distance_m);

@@ -11,6 +11,7 @@
 #include "baselines/karto/occupancy_rule.hpp"
 #include "slam/core/expect.hpp"
 #include "slam/motion/dense_path.hpp"
+#include "slam/motion/gyro_odometry.hpp"
 #include "slam/motion/wheel_track.hpp"
 
 namespace corridor::karto {
@@ -51,6 +52,7 @@ class KartoSlam::Impl {
        std::unique_ptr<backend::BackEnd> back_end, int num_threads, StageClock& clock)
       : params_(params),
         robot_(robot),
+        gyro_odometry_(robot),
         back_end_(std::move(back_end)),
         num_threads_(num_threads),
         clock_(clock) {
@@ -60,7 +62,13 @@ class KartoSlam::Impl {
 
   StepReport take(const WheelSample& sample) {
     const auto in_stage = clock_.enter(Stage::kPredict);
-    wheels_.add(sample);
+    wheels_.add(params_.use_gyro_odometry ? gyro_odometry_.corrected(sample) : sample);
+    return nothing_to_do(sample.stamp);
+  }
+
+  StepReport take(const ImuSample& sample) {
+    const auto in_stage = clock_.enter(Stage::kPredict);
+    if (params_.use_gyro_odometry) gyro_odometry_.add(sample);
     return nothing_to_do(sample.stamp);
   }
 
@@ -93,6 +101,13 @@ class KartoSlam::Impl {
   }
   // Of a run that never had a key scan.
   [[nodiscard]] const backend::BackEnd& unused_back_end() const { return *back_end_; }
+  [[nodiscard]] std::vector<Timestamp> key_stamps() const {
+    std::vector<Timestamp> stamps;
+    for (const motion::ScanRecord& record : records_) {
+      if (record.is_key) stamps.push_back(record.stamp);
+    }
+    return stamps;
+  }
 
  private:
   void update_odometry(Timestamp stamp) {
@@ -197,6 +212,7 @@ class KartoSlam::Impl {
 
   KartoParams params_;
   RobotModel robot_;
+  motion::GyroOdometry gyro_odometry_;
   std::unique_ptr<backend::BackEnd> back_end_;
   int num_threads_;
   StageClock& clock_;
@@ -223,7 +239,7 @@ KartoSlam::~KartoSlam() = default;
 Result<StepReport> KartoSlam::on_event(const SensorEvent& event) {
   if (const auto* wheels = std::get_if<WheelSample>(&event)) return impl_->take(*wheels);
   if (const auto* scan = std::get_if<LaserScan>(&event)) return impl_->take(*scan);
-  return nothing_to_do(stamp_of(event));
+  return impl_->take(std::get<ImuSample>(event));
 }
 
 Result<SlamEstimate> KartoSlam::finish() { return impl_->finish(); }
@@ -232,6 +248,8 @@ const graph::FactorGraph& KartoSlam::solved_graph() const {
   const PoseGraph* pose_graph = impl_->pose_graph();
   return pose_graph != nullptr ? pose_graph->factors() : impl_->unused_back_end().graph();
 }
+
+std::vector<Timestamp> KartoSlam::pose_stamps() const { return impl_->key_stamps(); }
 
 const graph::Values& KartoSlam::solved_values() const {
   const PoseGraph* pose_graph = impl_->pose_graph();

@@ -30,6 +30,7 @@ class KartoSlam final : public SlamSystem, public graph::GraphSource {
 
   [[nodiscard]] const graph::FactorGraph& solved_graph() const override;
   [[nodiscard]] const graph::Values& solved_values() const override;
+  [[nodiscard]] std::vector<Timestamp> pose_stamps() const override;
 
  private:
   class Impl;
