@@ -71,6 +71,39 @@ Metric online_angle_error() {
           [](const RunResult& result) { return result.online_scores.angle_rmse_deg; }};
 }
 
+Metric position_bound() {
+  return {"bound_position_rmse_m", "bound of the position error", "m", 4,
+          [](const RunResult& result) { return result.bound_position_rmse_m; }};
+}
+
+Metric angle_bound() {
+  return {"bound_angle_rmse_deg", "bound of the angle error", "deg", 3,
+          [](const RunResult& result) { return result.bound_angle_rmse_deg; }};
+}
+
+Metric nees_last() {
+  return {"nees_last", "NEES of the last pose", "1", 2,
+          [](const RunResult& result) { return result.nees_last; }};
+}
+
+Metric nees_mean() {
+  return {"nees_mean", "mean NEES along the run", "1", 2,
+          [](const RunResult& result) { return result.nees_mean; }};
+}
+
+std::vector<Metric> detection_scores() {
+  return {{"slip_precision", "slip, precision", "1", 2,
+           [](const RunResult& result) { return result.slip_precision; }},
+          {"slip_recall", "slip, recall", "1", 2,
+           [](const RunResult& result) { return result.slip_recall; }},
+          {"slip_latency_s", "slip, latency", "s", 2,
+           [](const RunResult& result) { return result.slip_latency_s; }},
+          {"degeneracy_precision", "degeneracy, precision", "1", 2,
+           [](const RunResult& result) { return result.degeneracy_precision; }},
+          {"degeneracy_recall", "degeneracy, recall", "1", 2,
+           [](const RunResult& result) { return result.degeneracy_recall; }}};
+}
+
 Metric relation_translation_mean() {
   return {"relations_translation_mean_m", "relation error, translation mean", "m", 3,
           [](const RunResult& r) { return r.final_relations.relations_translation_mean_m; }};

@@ -16,6 +16,13 @@ Metric position_error();
 Metric angle_error();
 Metric online_position_error();
 Metric online_angle_error();
+// What the log allows, whatever the system.
+Metric position_bound();
+Metric angle_bound();
+Metric nees_last();
+Metric nees_mean();
+// How well slips and blind directions were noticed.
+std::vector<Metric> detection_scores();
 Metric relation_translation_mean();
 Metric relation_translation_std();
 Metric relation_rotation_mean();

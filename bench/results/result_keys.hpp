@@ -113,9 +113,16 @@ void visit_outcome(auto& r, auto&& v) {
 }
 
 void visit_estimator(auto& r, auto&& v) {
+  v(ResultKey{"bound_position_rmse_m", "m",
+              "Cramer-Rao bound of position_rmse_m: what the log allows, of no system", false},
+    r.bound_position_rmse_m);
+  v(ResultKey{"bound_angle_rmse_deg", "deg", "the same of angle_rmse_deg", false},
+    r.bound_angle_rmse_deg);
   v(ResultKey{"nees_mean", "1",
-              "mean normalised estimation error squared; its degrees of freedom if consistent"},
+              "normalised estimation error squared, mean over poses along the run; its degrees of "
+              "freedom if consistent"},
     r.nees_mean);
+  v(ResultKey{"nees_last", "1", "the same of the last key scan's pose alone"}, r.nees_last);
   v(ResultKey{"nees_dof", "1", "degrees of freedom of one NEES sample"}, r.nees_dof);
   v(ResultKey{"chi2", "1", "weighted squared error of the graph at the end"}, r.chi2);
   v(ResultKey{"factors", "1", "factors of the graph at the end"}, r.factors);

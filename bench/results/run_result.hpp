@@ -115,7 +115,8 @@ struct RunResult {
   MapScores rendered_map;           // one common mapper's map of its trajectory; prefix rendered_
 
   // estimator
-  std::optional<double> nees_mean;
+  std::optional<double> bound_position_rmse_m, bound_angle_rmse_deg;  // of simulated logs
+  std::optional<double> nees_mean, nees_last;
   std::optional<std::int64_t> nees_dof;
   std::optional<double> chi2;
   std::optional<std::int64_t> factors, variables, relinearised;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/metrics/accuracy_bound.hpp"
+#include "bench/metrics/consistency.hpp"
 #include "bench/metrics/score_case.hpp"
 #include "bench/results/digest.hpp"
 #include "bench/results/machine.hpp"
@@ -90,6 +92,25 @@ std::vector<std::string> score(const CaseData& data, const Drive& run,
   }
   if (data.simulation_truth) score_detection(run.health, *data.simulation_truth, result);
   return remarks;
+}
+
+// What the data allow, and whether a system that solved a graph knows how wrong it is. Both need
+// poses that are true and not another program's.
+void score_against_theory(const CaseData& data, const SlamSystem& system, RunResult& result) {
+  if (data.simulation_truth && data.world) {
+    if (const auto bound =
+            metrics::accuracy_bound(data.log, *data.world, data.simulation_truth->slips)) {
+      result.bound_position_rmse_m = bound->position_rmse_m;
+      result.bound_angle_rmse_deg = bound->angle_rmse_deg;
+    }
+  }
+  const auto* source = dynamic_cast<const graph::GraphSource*>(&system);
+  if (source == nullptr || !data.log.truth || data.log.provenance.is_truth_reference) return;
+  if (const auto consistency = metrics::score_consistency(*source, *data.log.truth)) {
+    result.nees_mean = consistency->nees_mean;
+    result.nees_last = consistency->nees_last;
+    result.nees_dof = consistency->dof;
+  }
 }
 
 std::optional<std::int64_t> whole(const std::map<std::string, double>& counters,
@@ -218,6 +239,7 @@ tl::expected<RunResult, CaseFailure> run_case(const CaseSpec& spec, const catalo
   if (data->log.truth) {
     result.true_poses = data->log.provenance.is_truth_reference ? "reference" : "truth";
   }
+  if (run.estimate) score_against_theory(*data, **system, result);
   result.notes = score(*data, run, rendered_map, result);
   for (const std::string& line : data->suspicions)
     result.notes.push_back("suspicious data: " + line);

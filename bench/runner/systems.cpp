@@ -65,7 +65,10 @@ SystemInfo gmapping_entry() {
                                             {"as-published",
                                              "with two things of its paper: poses drawn around the "
                                              "match, a free cell before an end point",
-                                             gmapping::published_params()}}),
+                                             gmapping::published_params()},
+                                            {"gyro-odometry",
+                                             "as-shipped, its odometry's turns corrected by a gyro",
+                                             {.use_gyro_odometry = true}}}),
       [](const gmapping::GmappingParams& params, const SystemRequest& request) -> SystemResult {
         return gmapping::make_gmapping(params, request.robot, rng_of(request), request.threads);
       });
@@ -86,6 +89,9 @@ SystemInfo karto_entry() {
            {"corrected",
             "what its paper intends: no-returns ignored, look-ups checked, headings weighted",
             karto::corrected_params()},
+           {"gyro-odometry",
+            "as-shipped, its odometry's turns corrected by a gyro",
+            {.use_gyro_odometry = true}},
            {"slam-toolbox", "the parameters of slam_toolbox, with Karto's method",
             karto::slam_toolbox_params()}}),
       [](const karto::KartoParams& params, const SystemRequest& request) -> SystemResult {
@@ -161,7 +167,10 @@ SystemInfo fusion_paper_entry() {
   info.needs_imu = true;
   info.default_backend = "isam2";
   set_factory<fusion::FusionParams>(
-      info, {{"published", "the published method", fusion::fusion_paper_params()}},
+      info,
+      {{"published", "the published method", fusion::fusion_paper_params()},
+       {"with-directions", "the LiDAR left out along the directions alone that it does not see",
+        fusion::fusion_paper_with_directions()}},
       fusion_factory(info.name));
   return info;
 }

@@ -41,6 +41,7 @@ struct Row {
 
 struct Plot {
   double x_px, width_px, height_px;
+  std::optional<double> bound;  // what the data allow, median over worlds
 };
 
 std::optional<double> published_error(const std::string& system, bool is_position) {
@@ -73,7 +74,15 @@ std::vector<Row> load_rows(const Cases& cases, const std::string& dataset, bool 
   return rows;
 }
 
-std::optional<std::pair<double, double>> positive_range(const std::vector<Row>& rows) {
+std::optional<double> bound_of(const Cases& cases, const std::string& dataset,
+                               const tables::Metric& metric) {
+  const tables::Cell cell = tables::summarise_worlds(cases, dataset, metric);
+  const auto* estimate = std::get_if<tables::Estimate>(&cell);
+  return estimate == nullptr ? std::nullopt : std::make_optional(estimate->median);
+}
+
+std::optional<std::pair<double, double>> positive_range(const std::vector<Row>& rows,
+                                                        std::optional<double> bound) {
   double low = 1e300;
   double high = 0;
   const auto include = [&](double value) {
@@ -86,6 +95,7 @@ std::optional<std::pair<double, double>> positive_range(const std::vector<Row>& 
     if (row.published && !row.values.empty()) include(*row.published);
   }
   if (high == 0) return std::nullopt;
+  if (bound) include(*bound);
   return std::make_pair(low / kAxisMargin_ratio, high * kAxisMargin_ratio);
 }
 
@@ -127,7 +137,7 @@ void draw_row(Svg& svg, const Row& row, const LogScale& scale, double y_px) {
 }
 
 // What marks and lines mean, for a figure that stands alone.
-void draw_legend(Svg& svg, double x_px, bool has_paper) {
+void draw_legend(Svg& svg, double x_px, bool has_bound, bool has_paper) {
   const double y_px = 14;
   const auto say = [&](const std::string& text) {
     svg.text(x_px + 16, y_px + 4, text, "small");
@@ -139,6 +149,10 @@ void draw_legend(Svg& svg, double x_px, bool has_paper) {
   say("median");
   svg.line(x_px - 6, y_px, x_px + 10, y_px, "interval");
   say("its 95 % bootstrap interval");
+  if (has_bound) {
+    svg.line(x_px + 4, y_px - 8, x_px + 4, y_px + 8, "limit");
+    say("Cramer-Rao bound");
+  }
   if (!has_paper) return;
   svg.line(x_px - 1, y_px - 5, x_px + 9, y_px + 5, "axis");
   svg.line(x_px - 1, y_px + 5, x_px + 9, y_px - 5, "axis");
@@ -146,7 +160,7 @@ void draw_legend(Svg& svg, double x_px, bool has_paper) {
 }
 
 void draw_plot(Svg& svg, const Plot& plot, const std::vector<Row>& rows, const std::string& title) {
-  const auto range = positive_range(rows);
+  const auto range = positive_range(rows, plot.bound);
   if (!range) {
     svg.text(plot.x_px + 0.5 * plot.width_px, kTop_px + 0.5 * plot.height_px, "not measured",
              "muted", Anchor::kMiddle);
@@ -154,6 +168,10 @@ void draw_plot(Svg& svg, const Plot& plot, const std::vector<Row>& rows, const s
   }
   const LogScale scale(range->first, range->second, plot.x_px, plot.x_px + plot.width_px);
   draw_axis(svg, plot, scale, range->first, range->second, title);
+  if (plot.bound) {
+    const double x_px = scale(*plot.bound);
+    svg.line(x_px, kTop_px, x_px, kTop_px + plot.height_px, "limit");
+  }
   double y_px = kTop_px + 0.5 * kRow_px;
   for (const Row& row : rows) {
     draw_row(svg, row, scale, y_px);
@@ -166,7 +184,9 @@ void draw_plot(Svg& svg, const Plot& plot, const std::vector<Row>& rows, const s
 std::optional<Figure> error_figure(const Cases& cases, const std::string& dataset) {
   const std::vector<Row> position = load_rows(cases, dataset, true);
   const std::vector<Row> angle = load_rows(cases, dataset, false);
-  if (!positive_range(position)) return std::nullopt;
+  if (!positive_range(position, {})) return std::nullopt;
+  const auto position_bound = bound_of(cases, dataset, reports::position_bound());
+  const auto angle_bound = bound_of(cases, dataset, reports::angle_bound());
   const double height_px = kRow_px * static_cast<double>(position.size());
   std::vector<std::string> labels;
   labels.reserve(position.size());
@@ -181,15 +201,19 @@ std::optional<Figure> error_figure(const Cases& cases, const std::string& datase
     svg.text(label_px - 12, y_px + 4, elided(row.label, label_px - 20), "", Anchor::kEnd);
     y_px += kRow_px;
   }
-  draw_legend(svg, label_px, tables::is_paper_world(cases, dataset));
-  draw_plot(svg, {label_px, width_px, height_px}, position, "position error [m]");
-  draw_plot(svg, {label_px + width_px + kGap_px, width_px, height_px}, angle, "angle error [deg]");
+  draw_legend(svg, label_px, position_bound.has_value(), tables::is_paper_world(cases, dataset));
+  draw_plot(svg, {label_px, width_px, height_px, position_bound}, position, "position error [m]");
+  draw_plot(svg, {label_px + width_px + kGap_px, width_px, height_px, angle_bound}, angle,
+            "angle error [deg]");
   return Figure{
       std::move(svg),
       fmt::format("Position and angle error on {} (RMSE of the final trajectory, first "
                   "poses aligned), logarithmic axes. One mark per world; upright line: "
-                  "median; bar: its 95 % bootstrap interval{}.",
+                  "median; bar: its 95 % bootstrap interval{}{}.",
                   dataset,
+                  position_bound ? "; dashed line: the median over the worlds of the Cramer-Rao "
+                                   "bound, below which no unbiased estimator falls on average"
+                                 : "",
                   tables::is_paper_world(cases, dataset) ? "; cross: the paper's value" : "")};
 }
 

@@ -60,6 +60,7 @@ constexpr std::string_view kLightCss =
     ".figure .dimension{stroke:#0072B2;stroke-width:1.4;fill:none}"
     ".figure .dimension-head{fill:#0072B2}"
     ".figure .interval{stroke:#1a1a1a;stroke-width:2.4;fill:none}.figure .thin{stroke-width:1.6}"
+    ".figure .limit{stroke:#AA3377;stroke-width:1.6;stroke-dasharray:6 4;fill:none}"
     ".figure .hint{stroke:#8a8a84;stroke-width:1.5;stroke-dasharray:1 "
     "5;stroke-linecap:round;fill:none}"
     ".figure .halo{stroke:#ffffff;stroke-width:4;stroke-linejoin:round;paint-order:stroke}"
@@ -80,7 +81,7 @@ constexpr std::string_view kDarkCss =
     ".figure .clique{fill:#15171b;stroke:#ececec}.figure .clique-out{stroke:#ff8a3d}"
     ".figure .clique-new{stroke:#5aaee6}.figure .clique-again{fill:none;stroke:#2ccf9f}"
     ".figure .clique-kept{fill:#343840}"
-    ".figure .interval{stroke:#ececec}.figure .halo{stroke:#15171b}";
+    ".figure .limit{stroke:#e38bc4}.figure .interval{stroke:#ececec}.figure .halo{stroke:#15171b}";
 
 template <class Visit>
 void for_each_style(Visit&& visit) {

@@ -135,7 +135,8 @@ void append_world(const Cases& cases, std::vector<std::string>& sentences) {
 void append_sensors(const Cases& cases, std::vector<std::string>& sentences) {
   if (has_system(cases, {"fusion", "fusion-paper", "dead-reckoning-gyro"})) {
     sentences.emplace_back(
-        "Only fusion, fusion-paper and dead-reckoning-gyro read the IMU; all others get wheels and "
+        "Only fusion, fusion-paper, dead-reckoning-gyro and the profiles gyro-odometry read the "
+        "IMU; all others get wheels and "
         "LiDAR, as their programs do (dead-reckoning the wheels alone). dead-reckoning-gyro, "
         "wheels "
         "and gyro without LiDAR, is the floor: what it reaches owes nothing to scan matching.");

@@ -13,6 +13,7 @@
 #include "bench/statistics/wilson.hpp"
 #include "reports/false_closures.hpp"
 #include "reports/graph_cases.hpp"
+#include "reports/html/claim.hpp"
 #include "reports/html/standing.hpp"
 #include "reports/metrics.hpp"
 #include "reports/tables/summary.hpp"
@@ -333,6 +334,9 @@ std::vector<Verdict> verdicts(const Cases& cases) {
       continue;
     }
     append_trajectory_verdicts(cases, verdict);
+    for (std::string& sentence : claim_sentences(cases, dataset)) {
+      verdict.sentences.push_back(std::move(sentence));
+    }
     append_map_verdict(cases, KeyVariable::kA, verdict);
     append_map_verdict(cases, KeyVariable::kB, verdict);
     append_relation_verdict(cases, verdict);

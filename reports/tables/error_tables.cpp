@@ -59,6 +59,16 @@ bool has_metric(const Cases& cases, const std::string& dataset, const Metric& me
   });
 }
 
+// What no system can be better than, where a simulated log says it.
+void append_bound(const Cases& cases, const std::string& dataset, Table& table) {
+  const Cell position = summarise_worlds(cases, dataset, reports::position_bound());
+  if (std::holds_alternative<Missing>(position)) return;
+  std::vector<Cell> row = {dataset, "Cramer-Rao bound", position,
+                           summarise_worlds(cases, dataset, reports::angle_bound())};
+  row.resize(table.columns.size(), Missing{"not a system"});
+  table.rows.push_back(std::move(row));
+}
+
 // The series that were tried on the data set.
 std::vector<Series> series_on(const Cases& cases, const std::string& dataset) {
   std::vector<Series> tried = cases.series();
@@ -140,6 +150,7 @@ Table trajectory_error_table(const Cases& cases) {
                    rows[index]);
     }
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+    append_bound(cases, dataset, table);
   }
   table.notes = {
       "Without the word online: the trajectory at the end of the run. online: the pose given at "

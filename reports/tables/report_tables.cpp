@@ -12,6 +12,8 @@ std::vector<Table> report_tables(const reports::Cases& cases) {
                                key_distance_error_table(logs),
                                trajectory_error_table(logs),
                                comparison_table(logs),
+                               consistency_table(logs),
+                               detection_table(logs),
                                relation_table(logs),
                                back_end_table(true_graphs),
                                back_end_ratio_table(true_graphs),

@@ -19,6 +19,10 @@ Table key_distance_error_table(const reports::Cases& cases);
 Table trajectory_error_table(const reports::Cases& cases);
 // Paired factors: position and angle error divided by another's, world by world; each pair once.
 Table comparison_table(const reports::Cases& cases);
+// Whether systems that solve a graph know how wrong they are: NEES against its chi-square interval.
+Table consistency_table(const reports::Cases& cases);
+// How well slips and blind directions of the LiDAR were noticed, against the simulator's truth.
+Table detection_table(const reports::Cases& cases);
 // Errors of relations set up by hand, beside published figures; recorded data.
 Table relation_table(const reports::Cases& cases);
 // Pose graphs: how often the best known chi2 was reached, the gap to it, time and memory.

@@ -34,6 +34,23 @@ bool is_random(const Cases& cases, const std::string& dataset, const Series& ser
   });
 }
 
+// Requires a value.
+Estimate estimate_of(const std::vector<double>& values, int of, const Metric& metric,
+                     bool may_have_interval) {
+  Estimate estimate;
+  estimate.median = *statistics::median(values);
+  estimate.n = static_cast<int>(values.size());
+  estimate.of = of;
+  estimate.decimals = decimals_for(metric, estimate.median);
+  if (estimate.n >= kMinValuesForInterval && may_have_interval) {
+    if (const auto interval = statistics::bootstrap_median(values)) {
+      estimate.low = interval->low;
+      estimate.high = interval->high;
+    }
+  }
+  return estimate;
+}
+
 bool is_clearly_smaller(const WorldValues& candidate, const WorldValues& rival) {
   if (rival.empty()) return true;  // failed everywhere: nothing to be smaller than
   if (candidate.size() < rival.size()) return false;
@@ -101,26 +118,27 @@ int decimals_for(const Metric& metric, double value) {
   return decimals;
 }
 
+Cell summarise_worlds(const Cases& cases, const std::string& dataset, const Metric& metric) {
+  WorldValues by_world;
+  std::set<World> worlds;
+  for (const Case* entry : cases.of(dataset)) {
+    const World world = reports::world_of(entry->result);
+    worlds.insert(world);
+    if (const auto value = metric.value(entry->result)) by_world[world] = *value;
+  }
+  if (by_world.empty()) return Missing{"not computed"};
+  return estimate_of(values_of(by_world), static_cast<int>(worlds.size()), metric, true);
+}
+
 Cell summarise(const Cases& cases, const std::string& dataset, const Series& series,
                const Metric& metric, const std::string& reason) {
   const int of = num_worlds(cases, dataset, series);
   if (of == 0) return Missing{"not run"};
   const std::vector<double> values = values_of(world_values(cases, dataset, series, metric));
   if (values.empty()) return Missing{fmt::format("{} (0/{})", reason, of)};
-  Estimate estimate;
-  estimate.median = *statistics::median(values);
-  estimate.n = static_cast<int>(values.size());
-  estimate.of = of;
-  estimate.decimals = decimals_for(metric, estimate.median);
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const bool is_one_run = *least == *most && !is_random(cases, dataset, series);
-  if (estimate.n >= kMinValuesForInterval && !is_one_run) {
-    if (const auto interval = statistics::bootstrap_median(values)) {
-      estimate.low = interval->low;
-      estimate.high = interval->high;
-    }
-  }
-  return estimate;
+  return estimate_of(values, of, metric, !is_one_run);
 }
 
 std::optional<double> worst(const WorldValues& values) {

@@ -39,6 +39,10 @@ using WorldValues = std::map<reports::World, double>;
 // that is not finite.
 WorldValues world_values(const reports::Cases& cases, const std::string& dataset,
                          const reports::Series& series, const Metric& metric);
+// Median over the worlds of a data set of a number that is the same for every system, with its
+// interval; Missing where no case has it.
+Cell summarise_worlds(const reports::Cases& cases, const std::string& dataset,
+                      const Metric& metric);
 // Number of worlds in which the series was tried on the data set.
 int num_worlds(const reports::Cases& cases, const std::string& dataset,
                const reports::Series& series);

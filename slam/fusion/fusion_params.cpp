@@ -41,4 +41,10 @@ FusionParams fusion_paper_params() {
   return params;
 }
 
+FusionParams fusion_paper_with_directions() {
+  FusionParams params = fusion_paper_params();
+  params.use_directional_degeneracy = true;
+  return params;
+}
+
 }  // namespace corridor::fusion

@@ -119,6 +119,8 @@ struct FusionParams {
 // The published method, as facts about it are read: scalar degeneracy test, slip threshold,
 // matching between consecutive key scans, no wheel calibration, no loop closing.
 FusionParams fusion_paper_params();
+// The same, but the LiDAR is left out per direction: what the scalar test costs.
+FusionParams fusion_paper_with_directions();
 
 template <class V>
 void FusionParams::visit_structure(FusionParams& p, V& v) {

@@ -42,6 +42,11 @@ class FusionSlam final : public SlamSystem, public graph::GraphSource {
   std::string_view name() const override { return name_; }
   const graph::FactorGraph& solved_graph() const override { return back_end_->graph(); }
   const graph::Values& solved_values() const override { return back_end_->estimate(); }
+  std::vector<Timestamp> pose_stamps() const override {
+    std::vector<Timestamp> stamps;
+    for (const KeyScan& key_scan : key_scans_) stamps.push_back(key_scan.scan.stamp);
+    return stamps;
+  }
 
   Result<StepReport> on_event(const SensorEvent& event) override {
     StepReport report;

@@ -2,6 +2,9 @@
 // problem.
 #pragma once
 
+#include <vector>
+
+#include "slam/core/timestamp.hpp"
 #include "slam/graph/factor_graph.hpp"
 #include "slam/graph/values.hpp"
 
@@ -13,6 +16,8 @@ class GraphSource {
   // Valid after SlamSystem::finish().
   [[nodiscard]] virtual const FactorGraph& solved_graph() const = 0;
   [[nodiscard]] virtual const Values& solved_values() const = 0;
+  // Of the scans that poses 0, 1, 2, ... stand for. Poses of higher numbers are of no scan.
+  [[nodiscard]] virtual std::vector<Timestamp> pose_stamps() const = 0;
 };
 
 }  // namespace corridor::graph

@@ -133,14 +133,34 @@ TEST(Verdicts, SayThatTheMapIsTooShort) {
 TEST(Verdicts, AnswerEachQuestionInOneSentenceAndKeepTheRestInTheDetails) {
   const auto run = run_of({{"karto", 0.06, 0.01}, {"fusion-paper", 0.02, 0.01}, {"fusion", 0.01}});
   const html::Verdict verdict = html::verdicts(synthetic_cases(run)).front();
-  EXPECT_THAT(verdict.sentences,
-              ElementsAre(StartsWith("The position error of fusion is"),
-                          StartsWith("The angle error of fusion is"),
-                          StartsWith("On the systems' own maps, a is too short for "),
-                          AllOf(StartsWith("On the systems' own maps, b is too short for "),
-                                HasSubstr("karto (by 1.249 m)"))));
+  EXPECT_THAT(
+      verdict.sentences,
+      ElementsAre(StartsWith("The position error of fusion is"),
+                  StartsWith("The angle error of fusion is"),
+                  StartsWith("The published method (fusion-paper) reduces karto's position"),
+                  StartsWith("The published method (fusion-paper) reduces karto's angle"),
+                  StartsWith("On the systems' own maps, a is too short for "),
+                  AllOf(StartsWith("On the systems' own maps, b is too short for "),
+                        HasSubstr("karto (by 1.249 m)"))));
   EXPECT_THAT(verdict.details, Contains(StartsWith("The position error of fusion-paper is")));
   EXPECT_THAT(verdict.details, Contains(StartsWith("On karto's own map a ")));
+}
+
+// The paper: 1 - 0.1949 / 0.6032 and 1 - 0.674 / 0.923.
+TEST(Verdicts, HoldThePublishedMethodAgainstItsPapersClaims) {
+  const auto reached = run_of({{"karto", 0.06, 0.01}, {"fusion-paper", 0.01, 0.01}});
+  EXPECT_THAT(all_sentences(synthetic_cases(reached)),
+              Contains(AllOf(HasSubstr("reduces karto's position error by 83.3 % ["),
+                             HasSubstr("the paper claims 67.69 %: the whole interval is beyond"))));
+  const auto missed = run_of({{"karto", 0.06, 0.01}, {"fusion-paper", 0.058, 0.01}});
+  EXPECT_THAT(all_sentences(synthetic_cases(missed)),
+              Contains(AllOf(HasSubstr("reduces karto's angle error by "),
+                             HasSubstr("the paper claims 26.98 %: not reached here."),
+                             HasSubstr("karto's own angle error is "),
+                             HasSubstr("0.923 deg in the paper"))));
+  const auto without_rival = run_of({{"gmapping", 0.06, 0.01}, {"fusion-paper", 0.01, 0.01}});
+  EXPECT_THAT(all_sentences(synthetic_cases(without_rival)),
+              Not(Contains(HasSubstr("the paper claims"))));
 }
 
 TEST(Verdicts, NameTheSystemWhoseCasesFailed) {

@@ -34,7 +34,8 @@ TEST(ResultJson, HoldsExactlyTheKeysOfTheContract) {
       "relations_used relations_skipped relations_translation_mean_m relations_translation_std_m "
       "relations_rotation_mean_deg relations_rotation_std_deg key_distances map_chamfer_m "
       "map_hausdorff95_m rendered_key_distances rendered_map_chamfer_m rendered_map_hausdorff95_m "
-      "nees_mean nees_dof chi2 factors variables relinearised slip_precision slip_recall "
+      "bound_position_rmse_m bound_angle_rmse_deg nees_mean nees_last nees_dof chi2 factors "
+      "variables relinearised slip_precision slip_recall "
       "slip_latency_s degeneracy_precision degeneracy_recall stages step_p50_us step_p95_us "
       "step_p99_us step_max_us wall_s cpu_s peak_rss_mib realtime_factor "
       // of pose graphs

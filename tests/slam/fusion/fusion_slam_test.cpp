@@ -155,6 +155,22 @@ TEST(FusionSlam, KeepsTheCorridorsLengthWhereScanMatchingCannotSeeIt) {
   EXPECT_FALSE(result.estimate.map->empty());
 }
 
+// Every sensor falls silent for 3 s, now the one, now the other.
+TEST(FusionSlam, DrivesOnWhileASensorIsSilentForSeconds) {
+  for (std::size_t silent = 0; silent < std::variant_size_v<SensorEvent>; ++silent) {
+    SensorLog log = corridor_log("paper-corridor", 903);
+    const Timestamp begin = stamp_of(log.events.front());
+    std::erase_if(log.events, [&](const SensorEvent& event) {
+      return event.index() == silent && std::fmod(seconds_between(begin, stamp_of(event)), 12) > 9;
+    });
+    const Outcome result = run({}, log);
+    EXPECT_EQ(result.estimate.trajectory.size(), log.num_scans()) << silent;
+    EXPECT_EQ(result.estimate.counters.at("failed_solves"), 0) << silent;
+    EXPECT_LT(position_rmse_m(result.estimate.trajectory, *log.truth), kCorridorTolerance_m)
+        << silent;
+  }
+}
+
 // Without the vote of wheels and IMU these worlds end 3 to 35 m off.
 TEST(FusionSlam, PeopleWhoWalkInTheCorridorDoNotDragTheRobot) {
   for (const int num_people : {1, 6}) {
