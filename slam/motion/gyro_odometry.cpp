@@ -53,10 +53,9 @@ double GyroOdometry::turn_of(double wheel_turn_rad, double path_m, double durati
   const double predicted_rad = delta.theta_rad - bias_radps_ * duration_s;
   const double gyro_variance = square(imu_.gyro_noise_radps) * duration_s / imu_.rate_hz;
   const double variance = bias_variance_ * square(duration_s) + gyro_variance;
-  const double wheel_variance =
-      2 * square(wheels_.sigma_m_per_sqrt_m / wheels_.track_m) * path_m +
-      square(kUnbalance_radpm * path_m) + square(kTurnError_ratio * wheel_turn_rad) +
-      square(kStandstill_rad);
+  const double wheel_variance = 2 * square(wheels_.sigma_m_per_sqrt_m / wheels_.track_m) * path_m +
+                                square(kUnbalance_radpm * path_m) +
+                                square(kTurnError_ratio * wheel_turn_rad) + square(kStandstill_rad);
   const double innovation_rad = wheel_turn_rad - predicted_rad;
   const double innovation_variance = variance + wheel_variance;
   const double bias_covariance = -bias_variance_ * duration_s;
