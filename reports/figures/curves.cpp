@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/figures/scale.hpp"
-
 namespace corridor::figures {
 namespace {
 
@@ -19,6 +17,7 @@ double place(const Axis& axis, double value, double begin_px, double end_px) {
 }
 
 std::vector<Tick> ticks_of(const Axis& axis) {
+  if (!axis.ticks.empty()) return axis.ticks;
   return axis.is_logarithmic ? log_ticks(axis.low, axis.high)
                              : linear_ticks(axis.low, axis.high, axis.num_linear_ticks);
 }
@@ -46,13 +45,18 @@ void draw_axes(Svg& svg, const PlotArea& area, const Axis& x, const Axis& y) {
 
 Axis log_axis(std::string title, const std::vector<Curve>& curves, int coordinate) {
   double low = HUGE_VAL, high = 0;
+  const auto include = [&](double value) {
+    if (value <= 0) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
   for (const Curve& curve : curves) {
     for (const auto* points : {&curve.points, &curve.marks}) {
-      for (const Eigen::Vector2d& point : *points) {
-        if (point(coordinate) <= 0) continue;
-        low = std::min(low, point(coordinate));
-        high = std::max(high, point(coordinate));
-      }
+      for (const Eigen::Vector2d& point : *points) include(point(coordinate));
+    }
+    for (const Eigen::Vector3d& whisker : curve.whiskers) {
+      include(whisker(coordinate));
+      if (coordinate == 1) include(whisker.z());
     }
   }
   if (high == 0) return {std::move(title)};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/figures/scale.hpp"
 #include "reports/figures/svg.hpp"
 
 namespace corridor::figures {
@@ -21,7 +22,8 @@ struct Axis {
   std::string title;
   double low = 0, high = 0;  // low < high; of a logarithmic axis 0 < low
   bool is_logarithmic = true;
-  int num_linear_ticks = 5;  // about
+  int num_linear_ticks = 5;      // about
+  std::vector<Tick> ticks = {};  // if any, instead of round numbers
 };
 
 // Where the axes stand.
@@ -29,8 +31,8 @@ struct PlotArea {
   double x_px = 0, y_px = 0, width_px = 0, height_px = 0;
 };
 
-// The smallest axis with all x (0) or y (1) of lines and marks above zero, with a margin; low =
-// high = 0 where there is none.
+// The smallest axis with all x (0) or y (1) above zero of lines, marks and whiskers, with a margin;
+// low = high = 0 where there is none.
 Axis log_axis(std::string title, const std::vector<Curve>& curves, int coordinate);
 
 // What lies outside of the axes is drawn at their ends.

@@ -79,6 +79,10 @@ std::vector<Figure> report_figures(const Cases& cases, std::vector<std::string>&
     if (figure) figures.push_back(std::move(*figure));
   };
   const Cases logs = cases.of_logs();
+  std::set<std::string> families;
+  for (const std::string& dataset : logs.datasets()) families.insert(family_of(dataset));
+  families.erase("");
+  for (const std::string& family : families) add(sweep_figure(logs, family));
   for (const std::string& dataset : logs.datasets()) {
     add(environment_figure(logs, dataset, problems));
     add(trajectory_figure(logs, dataset, problems));

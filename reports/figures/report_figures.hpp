@@ -40,6 +40,11 @@ std::optional<Figure> map_figure(const reports::Cases& cases, const std::string&
                                  std::vector<std::string>& problems);
 // Every world's position and angle error per system on logarithmic axes.
 std::optional<Figure> error_figure(const reports::Cases& cases, const std::string& dataset);
+// "corridor-range" of "corridor-range@4.5", the member of a family; empty for other data sets.
+std::string family_of(const std::string& dataset);
+// Position and angle error over the values of a family of scenarios, a line per system, with the
+// Cramer-Rao bound; nullopt with fewer than two values.
+std::optional<Figure> sweep_figure(const reports::Cases& logs, const std::string& family);
 // Share of problems that each back-end of a system that solves graphs solves within a factor of the
 // fastest time; `graphs` has graph cases only, here and below.
 std::optional<Figure> profile_figure(const reports::Cases& graphs, const std::string& system);

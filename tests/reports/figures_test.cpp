@@ -143,6 +143,51 @@ TEST(LabelColumn, GrowsWithItsLabelsWithinLimits) {
   EXPECT_EQ(label_column_px({std::string(300, 'x')}), label_column_px({std::string(400, 'x')}));
 }
 
+// Eight worlds of each length, in all of which fusion is better.
+std::vector<results::RunResult> sweep_results(const std::vector<std::string>& lengths) {
+  std::vector<results::RunResult> results;
+  for (const std::string& length : lengths) {
+    reports::testing::SyntheticRun run =
+        reports::testing::run_of({{"fusion", 0.01}, {"karto", 0.5}});
+    run.dataset = "corridor-length@" + length;
+    for (const auto& result : reports::testing::synthetic_results(run)) results.push_back(result);
+  }
+  return results;
+}
+
+TEST(Family, IsWhatStandsBeforeTheLastAt) {
+  EXPECT_EQ(family_of("corridor-range@4.5"), "corridor-range");
+  EXPECT_EQ(family_of("a@b@3"), "a@b");
+  EXPECT_EQ(family_of("intel"), "");
+}
+
+TEST(SweepFigure, OrdersValuesBySizeAndSaysWhoIsShownToBeTheBestWhere) {
+  auto results = sweep_results({"100", "20", "3.5"});
+  for (auto& result : results) {  // at 20 both systems have the same error in every world
+    if (result.dataset == "corridor-length@20") result.position_rmse_m = 0.1;
+  }
+  const auto figure = sweep_figure(reports::testing::make_cases(results), "corridor-length");
+  ASSERT_TRUE(figure);
+  EXPECT_THAT(figure->caption, HasSubstr("position: fusion at 3.5, 100; nobody at 20."));
+  const std::string svg = figure->svg.element();
+  EXPECT_LT(svg.find(">3.5</text>"), svg.find(">20</text>"));
+  EXPECT_LT(svg.find(">20</text>"), svg.find(">100</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr("Cramer-Rao")));  // no record has a bound
+}
+
+TEST(SweepFigure, DrawsTheBoundWhereRecordsHaveOne) {
+  auto results = sweep_results({"20", "100"});
+  for (auto& result : results) result.bound_position_rmse_m = 0.004;
+  const auto figure = sweep_figure(reports::testing::make_cases(results), "corridor-length");
+  ASSERT_TRUE(figure);
+  EXPECT_THAT(figure->svg.element(), HasSubstr("Cramer-Rao bound"));
+}
+
+TEST(SweepFigure, OfOneValueIsNone) {
+  EXPECT_FALSE(
+      sweep_figure(reports::testing::make_cases(sweep_results({"20"})), "corridor-length"));
+}
+
 TEST(StageFigure, ShowsEveryStageThatMattersWithShareAndCount) {
   const auto run = reports::testing::paper_like_run();
   std::vector<reports::Case> all;
