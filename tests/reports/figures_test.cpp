@@ -164,7 +164,7 @@ TEST(Family, IsWhatStandsBeforeTheLastAt) {
 TEST(SweepFigure, OrdersValuesBySizeAndSaysWhoIsShownToBeTheBestWhere) {
   auto results = sweep_results({"100", "20", "3.5"});
   for (auto& result : results) {  // at 20 both systems have the same error in every world
-    if (result.dataset == "corridor-length@20") result.position_rmse_m = 0.1;
+    if (result.dataset == "corridor-length@20") result.final_scores.position_rmse_m = 0.1;
   }
   const auto figure = sweep_figure(reports::testing::make_cases(results), "corridor-length");
   ASSERT_TRUE(figure);
